@@ -1,0 +1,121 @@
+//! The construction, step by step [TK09, section 6].
+
+use basemesh::{EdgeMap, FaceMap, HalfedgeMap, SurfaceTarget, TriMesh, VertexMap};
+use bezier_core::{SepticTriangle, SurfaceJet};
+
+use crate::edge_system::{EdgeSolution, EdgeSystem};
+use crate::error::JoinError;
+use crate::faces::{corner_halfedges, local_edge};
+use crate::interior;
+use crate::network::CurveNetwork;
+use crate::residual::g1_residual;
+use crate::settings::{InnerPoints, Settings};
+use crate::vertex_system::{SpokeSolution, solve_vertices};
+use crate::weights::{EdgeWeights, origin_weights};
+
+/// Patches whose tangent planes agree along every edge.
+#[derive(Clone, Debug)]
+pub struct SmoothPatches {
+    /// Control nets by face.
+    pub nets: FaceMap<SepticTriangle>,
+    /// The weight functions that prove the smoothness of each edge.
+    pub weights: EdgeMap<EdgeWeights>,
+}
+
+impl SmoothPatches {
+    /// Largest coefficient of the smoothness condition along an edge, in chord lengths: zero, up to
+    /// round-off, for every edge.
+    #[must_use]
+    pub fn edge_residual(
+        &self,
+        mesh: &TriMesh,
+        network: &CurveNetwork,
+        edge: basemesh::EdgeId,
+    ) -> Option<f64> {
+        let h = mesh.topology().canonical(edge);
+        let w = mesh.topology().twin(h)?;
+        let left = self.nets[h.face()].first_inner_row::<7>(local_edge(h));
+        let mut right = self.nets[w.face()].first_inner_row::<7>(local_edge(w));
+        right.reverse();
+        let rows = g1_residual(&network.curves()[edge], &left, &right, &self.weights[edge]);
+        Some(rows.iter().map(|row| row.length()).fold(0.0, f64::max))
+    }
+}
+
+/// Turns positional patches into smooth ones: the boundary curves stay, twist points, first inner
+/// rows and (by [`Settings::inner_points`]) inner points move.
+///
+/// # Errors
+///
+/// [`JoinError`] if the surface has a boundary, or where the curves around a vertex do not fan out.
+///
+/// # Panics
+///
+/// If the numbers of jets, curves or patches are not those of the mesh.
+pub fn join(
+    mesh: &TriMesh,
+    jets: &VertexMap<SurfaceJet>,
+    network: &CurveNetwork,
+    positional: FaceMap<SepticTriangle>,
+    target: &dyn SurfaceTarget,
+    settings: &Settings,
+) -> Result<SmoothPatches, JoinError> {
+    let topology = mesh.topology();
+    assert_eq!(jets.len(), topology.vertex_count(), "one jet per vertex");
+    assert_eq!(network.curves().len(), topology.edge_count(), "one curve per edge");
+    assert_eq!(positional.len(), topology.face_count(), "one patch per face");
+
+    let origin = origin_weights(mesh, jets, network)?;
+    let twist =
+        |h: basemesh::HalfedgeId| positional[h.face()].first_inner_row::<7>(local_edge(h))[1];
+    let spokes = solve_vertices(mesh, jets, network, &origin, &twist)?;
+    let twisted = set_twists(positional, &spokes);
+    let edges = EdgeMap::try_from_fn(topology.edge_count(), |edge| {
+        let system = EdgeSystem::new(topology, network, &twisted, &origin, &spokes, edge)?;
+        let vertex = topology.origin(topology.canonical(edge)).index();
+        system.nearest().ok_or(JoinError::DegenerateFan { vertex })
+    })?;
+    let joined = set_rows(mesh, twisted, &edges);
+    let nets = match settings.inner_points {
+        InnerPoints::Keep => joined,
+        InnerPoints::PointToPlane => interior::fit_point_to_plane(&joined, target),
+    };
+    Ok(SmoothPatches { nets, weights: edges.map(|_, edge| edge.weights) })
+}
+
+fn set_twists(
+    nets: FaceMap<SepticTriangle>,
+    spokes: &HalfedgeMap<SpokeSolution>,
+) -> FaceMap<SepticTriangle> {
+    nets.map(|face, net| {
+        let mut net = *net;
+        for h in corner_halfedges(face) {
+            net.set_first_inner(local_edge(h), 1, spokes[h].twist);
+        }
+        net
+    })
+}
+
+fn set_rows(
+    mesh: &TriMesh,
+    nets: FaceMap<SepticTriangle>,
+    edges: &EdgeMap<EdgeSolution>,
+) -> FaceMap<SepticTriangle> {
+    let topology = mesh.topology();
+    nets.map(|face, net| {
+        let mut net = *net;
+        for h in corner_halfedges(face) {
+            let edge = topology.edge(h);
+            let middle = if topology.canonical(edge) == h {
+                edges[edge].left
+            } else {
+                let [a, b, c] = edges[edge].right;
+                [c, b, a]
+            };
+            for (i, point) in middle.into_iter().enumerate() {
+                net.set_first_inner(local_edge(h), 2 + i, point);
+            }
+        }
+        net
+    })
+}

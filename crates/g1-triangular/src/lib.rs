@@ -1,0 +1,25 @@
+#![doc = include_str!("../README.md")]
+
+mod construct;
+mod edge_system;
+mod error;
+mod faces;
+mod fill;
+mod interior;
+mod network;
+mod residual;
+mod second_order;
+mod settings;
+mod vertex_system;
+mod weights;
+
+pub use basemesh;
+pub use bezier_core;
+pub use construct::{SmoothPatches, join};
+pub use error::JoinError;
+pub use fill::{PositionalPatches, fill};
+pub use network::CurveNetwork;
+pub use residual::g1_residual;
+pub use second_order::SecondOrderData;
+pub use settings::{InnerPoints, Settings};
+pub use weights::EdgeWeights;

@@ -1,0 +1,14 @@
+#![doc = include_str!("../README.md")]
+
+mod kkt;
+mod outcome;
+mod problem;
+mod settings;
+mod solve;
+mod start;
+
+pub use bezier_core;
+pub use outcome::{EdgeOutcome, EdgeStatus, FallbackReason};
+pub use problem::{CurveSample, EdgeProblem, EdgeProblemError};
+pub use settings::Settings;
+pub use solve::solve;

@@ -1,0 +1,132 @@
+//! The traits of a scalar field: value and gradient, Hessian, enclosure.
+
+use glam::{DMat3, DVec3};
+
+use crate::aabb::Aabb;
+use crate::interval::Interval;
+
+/// Value, gradient and Hessian of a field at one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct FieldJet {
+    /// The value f.
+    pub value: f64,
+    /// The gradient ∇f.
+    pub gradient: DVec3,
+    /// The Hessian ∇∇f; symmetric bit for bit.
+    pub hessian: DMat3,
+}
+
+/// A scalar field whose zero set is the surface: negative inside, positive outside.
+///
+/// The three ways to the value (here, in [`value_gradient`](Self::value_gradient) and in
+/// [`TwiceDifferentiable::jet`]) and the batch methods agree bit for bit in every field of this
+/// crate; implementors outside should keep that.
+/// Where the field is undefined (the square root of a negative number) the value is NaN, and where
+/// it has no derivative the gradient is not finite: [`project`](crate::project) and
+/// [`surface_point`](crate::surface_point) turn both into errors.
+pub trait ImplicitField: Sync {
+    /// The value at `p`.
+    fn value(&self, p: DVec3) -> f64;
+
+    /// The value and the exact gradient at `p`.
+    fn value_gradient(&self, p: DVec3) -> (f64, DVec3);
+
+    /// The values at many points, `out[i]` belonging to `points[i]`.
+    ///
+    /// # Panics
+    /// If the two slices differ in length.
+    fn values(&self, points: &[DVec3], out: &mut [f64]) {
+        assert_same_length(points, out);
+        for (out, &p) in out.iter_mut().zip(points) {
+            *out = self.value(p);
+        }
+    }
+
+    /// The values and gradients at many points, `out[i]` belonging to `points[i]`.
+    ///
+    /// # Panics
+    /// If the two slices differ in length.
+    fn value_gradients(&self, points: &[DVec3], out: &mut [(f64, DVec3)]) {
+        assert_same_length(points, out);
+        for (out, &p) in out.iter_mut().zip(points) {
+            *out = self.value_gradient(p);
+        }
+    }
+}
+
+/// A field with its exact, symmetric Hessian; never a silent finite difference.
+pub trait TwiceDifferentiable: ImplicitField {
+    /// Value, gradient and Hessian at `p`.
+    fn jet(&self, p: DVec3) -> FieldJet;
+
+    /// The jets at many points, `out[i]` belonging to `points[i]`.
+    ///
+    /// # Panics
+    /// If the two slices differ in length.
+    fn jets(&self, points: &[DVec3], out: &mut [FieldJet]) {
+        assert_same_length(points, out);
+        for (out, &p) in out.iter_mut().zip(points) {
+            *out = self.jet(p);
+        }
+    }
+}
+
+/// A field that can be enclosed over a box, so that a cell without surface is discarded with
+/// certainty.
+pub trait BoundedField: ImplicitField {
+    /// An interval that contains every value that [`ImplicitField::value`] returns at a point of
+    /// `region` where it is not NaN; rounding is outward.
+    ///
+    /// The width shrinks at least in proportion to the box where the field is smooth.
+    /// [`Interval::ENTIRE`] means that nothing is known.
+    fn enclosure(&self, region: &Aabb) -> Interval;
+}
+
+/// All that the surface pipeline needs: derivatives and enclosure.
+///
+/// Implemented for everything that is both [`TwiceDifferentiable`] and [`BoundedField`].
+pub trait ImplicitSurface: TwiceDifferentiable + BoundedField {}
+
+impl<F: TwiceDifferentiable + BoundedField + ?Sized> ImplicitSurface for F {}
+
+/// Batch methods share this check: a silent truncation would leave stale numbers in `out`.
+pub(crate) fn assert_same_length<A, B>(points: &[A], out: &[B]) {
+    assert_eq!(points.len(), out.len(), "as many results as points are needed");
+}
+
+macro_rules! forward_to_pointee {
+    ($($pointer:ty),*) => {$(
+        impl<F: ImplicitField + ?Sized> ImplicitField for $pointer {
+            fn value(&self, p: DVec3) -> f64 {
+                (**self).value(p)
+            }
+            fn value_gradient(&self, p: DVec3) -> (f64, DVec3) {
+                (**self).value_gradient(p)
+            }
+            fn values(&self, points: &[DVec3], out: &mut [f64]) {
+                (**self).values(points, out);
+            }
+            fn value_gradients(&self, points: &[DVec3], out: &mut [(f64, DVec3)]) {
+                (**self).value_gradients(points, out);
+            }
+        }
+
+        impl<F: TwiceDifferentiable + ?Sized> TwiceDifferentiable for $pointer {
+            fn jet(&self, p: DVec3) -> FieldJet {
+                (**self).jet(p)
+            }
+            fn jets(&self, points: &[DVec3], out: &mut [FieldJet]) {
+                (**self).jets(points, out);
+            }
+        }
+
+        impl<F: BoundedField + ?Sized> BoundedField for $pointer {
+            fn enclosure(&self, region: &Aabb) -> Interval {
+                (**self).enclosure(region)
+            }
+        }
+    )*};
+}
+
+forward_to_pointee!(&F, Box<F>);

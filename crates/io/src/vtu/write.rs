@@ -1,0 +1,151 @@
+//! From patches to a file.
+
+use std::io::{self, Write};
+
+use basemesh::{FaceMap, Topology};
+use bezier_core::{BezierTriangle, MultiIndex};
+use glam::DVec3;
+
+use super::array::{ArrayHead, write_array};
+use super::error::VtuWriteError;
+use super::{CellData, CellKind, CellValues, Encoding, VtuOptions};
+use crate::lattice::Lattice;
+use crate::node_order::node_order;
+
+/// Writes a patch surface; every coordinate keeps its bits with [`CellKind::Bezier`].
+///
+/// Points shared by several patches are written once: first the vertices, by id; then `degree - 1`
+/// points for each edge, in the direction of its canonical half-edge; then the interior points of
+/// each patch. Viewers show flat facets until their nonlinear subdivision level is raised.
+///
+/// Nothing is written if the input is refused.
+///
+/// # Errors
+///
+/// [`VtuWriteError`], among others if two patches disagree about a shared point in a single bit:
+/// none of them is preferred.
+pub fn write_vtu<const P: usize>(
+    out: &mut dyn Write,
+    topology: &Topology,
+    nets: &FaceMap<BezierTriangle<DVec3, P>>,
+    options: &VtuOptions,
+) -> Result<(), VtuWriteError> {
+    const { assert!(P >= 3, "a cell has three corners") };
+    if nets.len() != topology.face_count() {
+        let (patches, faces) = (nets.len(), topology.face_count());
+        return Err(VtuWriteError::PatchCount { patches, faces });
+    }
+    check_cell_data(options, nets.len())?;
+    let degree = BezierTriangle::<DVec3, P>::DEGREE;
+    let lattice = Lattice::new(topology, degree);
+    let mut points = lattice.gather(nets)?;
+    if options.cells == CellKind::Lagrange {
+        points = lattice.sample(nets);
+    }
+    check_finite(&points, &lattice, topology, degree)?;
+    let connectivity = connectivity(&lattice, topology, degree);
+    write_grid(out, &points, &connectivity, P, options)?;
+    Ok(())
+}
+
+fn check_cell_data(options: &VtuOptions, cells: usize) -> Result<(), VtuWriteError> {
+    for (at, CellData { name, values }) in options.cell_data.iter().enumerate() {
+        if name.trim() != name || name.is_empty() || name.chars().any(char::is_control) {
+            return Err(VtuWriteError::CellDataName { name: name.clone() });
+        }
+        if options.cell_data[..at].iter().any(|earlier| earlier.name == *name) {
+            return Err(VtuWriteError::CellDataTwice { name: name.clone() });
+        }
+        if values.len() != cells {
+            let (name, values) = (name.clone(), values.len());
+            return Err(VtuWriteError::CellDataCount { name, values, cells });
+        }
+        if let (Encoding::Ascii, CellValues::Float64(values)) = (options.encoding, values)
+            && let Some(cell) = values.iter().position(|value| !value.is_finite())
+        {
+            let (name, value) = (name.clone(), values[cell]);
+            return Err(VtuWriteError::CellDataNotFinite { name, cell, value });
+        }
+    }
+    Ok(())
+}
+
+fn check_finite(
+    points: &[DVec3],
+    lattice: &Lattice<'_>,
+    topology: &Topology,
+    degree: usize,
+) -> Result<(), VtuWriteError> {
+    if points.iter().all(|point| point.is_finite()) {
+        return Ok(());
+    }
+    for face in topology.faces() {
+        for index in MultiIndex::all(degree) {
+            let position = points[lattice.locate(face, index.rank()).0];
+            if !position.is_finite() {
+                return Err(VtuWriteError::NotFinite { face, index, position });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn connectivity(lattice: &Lattice<'_>, topology: &Topology, degree: usize) -> Vec<i64> {
+    let order = node_order(degree);
+    let id = |face, rank| to_i64(lattice.locate(face, rank).0);
+    topology.faces().flat_map(|face| order.iter().map(move |&rank| id(face, rank))).collect()
+}
+
+fn to_i64(count: usize) -> i64 {
+    i64::try_from(count).expect("invariant: memory holds fewer than 2^63 points")
+}
+
+fn write_grid(
+    out: &mut dyn Write,
+    points: &[DVec3],
+    connectivity: &[i64],
+    points_per_cell: usize,
+    options: &VtuOptions,
+) -> io::Result<()> {
+    let cells = connectivity.len() / points_per_cell;
+    writeln!(out, r#"<?xml version="1.0"?>"#)?;
+    writeln!(
+        out,
+        r#"<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">"#
+    )?;
+    writeln!(out, "<UnstructuredGrid>")?;
+    writeln!(out, r#"<Piece NumberOfPoints="{}" NumberOfCells="{cells}">"#, points.len())?;
+    write_cell_data(out, options)?;
+    writeln!(out, "<Points>")?;
+    let coordinates = points.iter().flat_map(|point| point.to_array());
+    let head = ArrayHead { name: "Points", components: 3, count: 3 * points.len(), per_line: 3 };
+    write_array(out, options.encoding, head, coordinates)?;
+    writeln!(out, "</Points>\n<Cells>")?;
+    let per_line = points_per_cell;
+    let head = ArrayHead { per_line, ..ArrayHead::scalars("connectivity", connectivity.len()) };
+    write_array(out, options.encoding, head, connectivity.iter().copied())?;
+    let ends = (1..=cells).map(|cell| to_i64(cell * points_per_cell));
+    write_array(out, options.encoding, ArrayHead::scalars("offsets", cells), ends)?;
+    let types = std::iter::repeat_n(options.cells.vtk_type(), cells);
+    write_array(out, options.encoding, ArrayHead::scalars("types", cells), types)?;
+    writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+fn write_cell_data(out: &mut dyn Write, options: &VtuOptions) -> io::Result<()> {
+    if options.cell_data.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "<CellData>")?;
+    for CellData { name, values } in &options.cell_data {
+        let head = ArrayHead::scalars(name, values.len());
+        match values {
+            CellValues::Float64(values) => {
+                write_array(out, options.encoding, head, values.iter().copied())?;
+            }
+            CellValues::Int64(values) => {
+                write_array(out, options.encoding, head, values.iter().copied())?;
+            }
+        }
+    }
+    writeln!(out, "</CellData>")
+}

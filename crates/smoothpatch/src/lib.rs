@@ -1,0 +1,25 @@
+#![doc = include_str!("../README.md")]
+
+pub mod measure;
+
+mod error;
+mod pipeline;
+mod progress;
+mod repair;
+mod settings;
+mod source;
+mod surface;
+
+pub use basemesh;
+pub use bezier_core;
+pub use error::FitError;
+pub use g1_triangular;
+pub use hermite_sqp;
+pub use implicit;
+#[cfg(feature = "io")]
+pub use io;
+pub use pipeline::{fit, fit_base_mesh, fit_source};
+pub use progress::{Progress, Silent, Stage, StageTimes};
+pub use settings::{BaseMeshSettings, Method, Settings};
+pub use source::{FieldSource, FitSource};
+pub use surface::{BaseMeshOrigin, CurveSummary, G1Surface, Polygonized};

@@ -1,0 +1,9 @@
+//! How good a surface is, measured on its control nets alone and against a target.
+
+mod continuity;
+mod deviation;
+mod interpolation;
+
+pub use continuity::{Continuity, SEAM_SAMPLES, continuity, seam};
+pub use deviation::{Deviation, FaceDeviation, GRID, deviation, folded_patches};
+pub use interpolation::{Interpolation, interpolation};

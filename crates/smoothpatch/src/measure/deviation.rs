@@ -1,0 +1,145 @@
+//! How far patches are from the surface they stand for.
+
+use basemesh::glam::DVec3;
+use basemesh::{FaceId, FaceMap, Foot, SurfaceTarget};
+use bezier_core::{Barycentric, SepticTriangle};
+use serde::{Deserialize, Serialize};
+
+/// Divisions of the barycentric grid on which every patch is compared: 153 points.
+pub const GRID: usize = 16;
+
+/// Deviation of a whole surface from its target.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Deviation {
+    /// Diagonal of the bounding box of the vertices, which `max` and `rms` are relative to.
+    pub diagonal: f64,
+    /// Largest distance to the target over the diagonal.
+    pub max: f64,
+    /// Area-weighted root mean square distance over the diagonal.
+    pub rms: f64,
+    /// Largest angle between patch normal and target normal, in degrees.
+    pub max_normal_deg: f64,
+    /// Area-weighted root mean square of that angle.
+    pub rms_normal_deg: f64,
+    /// The face with the largest distance.
+    pub worst_face: usize,
+    /// Faces whose normal turns away from the target's somewhere.
+    pub folded: Vec<usize>,
+    /// Samples that could not be projected onto the target; they count as infinitely far.
+    pub failed_samples: usize,
+}
+
+/// Deviation of one patch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceDeviation {
+    /// Largest distance. Unit: length.
+    pub max: f64,
+    /// Largest normal angle in radians.
+    pub max_normal: f64,
+    /// The patch normal turns away from the target's somewhere.
+    pub folded: bool,
+    failed: usize,
+    area: f64,
+    square_distance: f64,
+    square_angle: f64,
+}
+
+/// Compares every patch with `target` on a grid of 153 points; `diagonal` is what the distances are
+/// stated relative to.
+///
+/// The distance is that to the foot of the target, which for small deviations is the closest point
+/// to second order. Returns the summary and the figures of each face.
+#[must_use]
+pub fn deviation(
+    nets: &FaceMap<SepticTriangle>,
+    target: &dyn SurfaceTarget,
+    diagonal: f64,
+) -> (Deviation, FaceMap<FaceDeviation>) {
+    let parameters: Vec<Barycentric> = Barycentric::lattice(GRID).collect();
+    let faces =
+        FaceMap::from_fn(nets.len(), |face| face_deviation(&nets[face], target, &parameters));
+    (summarise(&faces, diagonal), faces)
+}
+
+fn face_deviation(
+    net: &SepticTriangle,
+    target: &dyn SurfaceTarget,
+    parameters: &[Barycentric],
+) -> FaceDeviation {
+    let (points, normals): (Vec<DVec3>, Vec<DVec3>) =
+        parameters.iter().map(|&at| net.point_and_area_normal(at)).unzip();
+    let mut feet: Vec<Option<Foot>> = vec![None; points.len()];
+    target.feet(&points, &mut feet);
+    let mut result = FaceDeviation {
+        max: 0.0,
+        max_normal: 0.0,
+        folded: false,
+        failed: 0,
+        area: 0.0,
+        square_distance: 0.0,
+        square_angle: 0.0,
+    };
+    for ((point, normal), foot) in points.into_iter().zip(normals).zip(feet) {
+        let Some(foot) = foot else {
+            result.failed += 1;
+            result.max = f64::INFINITY;
+            continue;
+        };
+        let distance = point.distance(foot.point);
+        let along = normal.dot(foot.normal);
+        let angle = normal.cross(foot.normal).length().atan2(along);
+        let weight = normal.length();
+        result.max = result.max.max(distance);
+        result.max_normal = result.max_normal.max(angle);
+        result.folded |= !(along > 0.0);
+        result.area += weight;
+        result.square_distance += weight * distance * distance;
+        result.square_angle += weight * angle * angle;
+    }
+    result
+}
+
+fn summarise(faces: &FaceMap<FaceDeviation>, diagonal: f64) -> Deviation {
+    let (mut area, mut distance, mut angle) = (0.0, 0.0, 0.0);
+    let mut summary = Deviation {
+        diagonal,
+        max: 0.0,
+        rms: 0.0,
+        max_normal_deg: 0.0,
+        rms_normal_deg: 0.0,
+        worst_face: 0,
+        folded: Vec::new(),
+        failed_samples: 0,
+    };
+    for (face, measure) in faces.iter() {
+        if measure.max / diagonal > summary.max {
+            summary.max = measure.max / diagonal;
+            summary.worst_face = face.index();
+        }
+        summary.max_normal_deg = summary.max_normal_deg.max(measure.max_normal.to_degrees());
+        summary.failed_samples += measure.failed;
+        if measure.folded {
+            summary.folded.push(face.index());
+        }
+        area += measure.area;
+        distance += measure.square_distance;
+        angle += measure.square_angle;
+    }
+    summary.rms = (distance / area).sqrt() / diagonal;
+    summary.rms_normal_deg = (angle / area).sqrt().to_degrees();
+    summary
+}
+
+/// Patches whose normal somewhere turns by more than 90° from the patch's own mean normal: folds
+/// that can be seen without knowing the target.
+#[must_use]
+pub fn folded_patches(nets: &FaceMap<SepticTriangle>) -> Vec<FaceId> {
+    let parameters: Vec<Barycentric> = Barycentric::lattice(GRID).collect();
+    let folded = nets.map(|_, net| {
+        let normals: Vec<DVec3> =
+            parameters.iter().map(|&at| net.point_and_area_normal(at).1).collect();
+        let mean: DVec3 = normals.iter().sum();
+        normals.iter().any(|normal| !(normal.dot(mean) > 0.0))
+    });
+    folded.iter().filter(|(_, folded)| **folded).map(|(face, _)| face).collect()
+}

@@ -1,0 +1,183 @@
+//! The story: from an implicit function to a smooth surface, one stage after the other.
+
+use basemesh::{
+    EdgeMap, FieldTarget, SurfaceTarget, TriMesh, VertexMap, polygonize_to_faces, simplify,
+};
+use bezier_core::SurfaceJet;
+use g1_triangular::{CurveNetwork, SmoothPatches};
+use hermite_sqp::{CurveSample, EdgeOutcome, EdgeProblem};
+use implicit::{Aabb, ImplicitSurface};
+
+use crate::error::FitError;
+use crate::progress::{Clock, Progress, Stage, StageTimes};
+use crate::repair::{edges_to_split, refine};
+use crate::settings::Settings;
+use crate::source::{FieldSource, FitSource};
+use crate::surface::{BaseMeshOrigin, G1Surface, Polygonized};
+
+/// Implicit surface to G1 spline: polygonize, simplify, fit curves, fill, join.
+///
+/// All components of `field = 0` in `region` are approximated by about
+/// [`settings.faces()`](Settings::faces) patches of degree 7 whose tangent planes agree along every
+/// edge, and which interpolate position, normal and second fundamental form of the surface at every
+/// vertex.
+///
+/// # Errors
+///
+/// [`FitError`]: no surface in the region, a surface that leaves it, a singular point, too few
+/// faces for its topology.
+pub fn fit(
+    field: &dyn ImplicitSurface,
+    region: &Aabb,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<G1Surface, FitError> {
+    let mut clock = Clock::new(progress);
+    let faces = settings.faces();
+    let dense = clock.run(Stage::Polygonize, settings.base_mesh.oversampling * faces, || {
+        polygonize_to_faces(field, region, settings.base_mesh.oversampling * faces)
+    })?;
+    let polygonized = Polygonized::from(&dense);
+    let length = dense.mesh.diagonal();
+    let base = clock.run(Stage::Simplify, dense.mesh.topology().face_count(), || {
+        let target = FieldTarget::new(field, length, settings.projection);
+        simplify(dense.mesh, &target, &settings.base_mesh.simplify)
+    })?;
+    let source = FieldSource::new(field, base.mesh.diagonal(), settings.projection);
+    let mut surface =
+        fit_mesh(base.mesh, &source, settings, settings.base_mesh.repair_rounds, &mut clock)?;
+    let added_faces = surface.mesh.topology().face_count() - base.report.faces;
+    surface.origin = BaseMeshOrigin {
+        polygonized: Some(polygonized),
+        simplified: Some(base.report),
+        added_faces,
+    };
+    surface.times = clock.times;
+    Ok(surface)
+}
+
+/// A G1 spline over a base mesh that is given: its faces become the patches, as they are.
+///
+/// The vertices stay where they are; normals and curvatures are those of the level set through
+/// each vertex.
+///
+/// # Errors
+///
+/// [`FitError`]: a singular point, an edge without a curve, an open mesh.
+pub fn fit_base_mesh(
+    field: &dyn ImplicitSurface,
+    mesh: TriMesh,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<G1Surface, FitError> {
+    let source = FieldSource::new(field, mesh.diagonal(), settings.projection);
+    fit_source(&source, mesh, settings, progress)
+}
+
+/// A G1 spline over a base mesh from any source of feet and second-order data.
+///
+/// # Errors
+///
+/// [`FitError`]: vertices without data, an edge without a curve, an open mesh.
+pub fn fit_source(
+    source: &dyn FitSource,
+    mesh: TriMesh,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<G1Surface, FitError> {
+    let mut clock = Clock::new(progress);
+    let mut surface = fit_mesh(mesh, source, settings, 0, &mut clock)?;
+    surface.times = clock.times;
+    Ok(surface)
+}
+
+/// Curves, then patches, then smooth patches; with local refinement of the mesh where its curves
+/// show that it does not resolve the surface.
+fn fit_mesh(
+    mut mesh: TriMesh,
+    source: &dyn FitSource,
+    settings: &Settings,
+    mut repair_rounds: usize,
+    clock: &mut Clock<'_>,
+) -> Result<G1Surface, FitError> {
+    let (jets, curves) = loop {
+        let vertices = mesh.topology().vertex_count();
+        let jets = clock.run(Stage::Vertices, vertices, || vertex_jets(&mesh, source))?;
+        let edges = mesh.topology().edge_count();
+        let curves =
+            clock.run(Stage::Curves, edges, || fit_curves(&mesh, &jets, source, settings))?;
+        let unresolved = edges_to_split(&mesh, &jets, &curves);
+        if unresolved.is_empty() || repair_rounds == 0 {
+            break (jets, curves);
+        }
+        repair_rounds -= 1;
+        mesh =
+            clock.run(Stage::Simplify, unresolved.len(), || refine(&mesh, source, &unresolved))?;
+    };
+    let network = CurveNetwork::new(curves.map(|_, outcome| outcome.curve));
+    let faces = mesh.topology().face_count();
+    let positional = clock.run(Stage::Fill, faces, || g1_triangular::fill(&mesh, &network, source));
+    let failed_feet = positional.failed_feet;
+    let SmoothPatches { nets, weights } = clock.run(Stage::Join, faces, || {
+        g1_triangular::join(&mesh, &jets, &network, positional.nets, source, &settings.patches)
+    })?;
+    Ok(G1Surface {
+        mesh,
+        jets,
+        curves,
+        network,
+        failed_feet,
+        patches: SmoothPatches { nets, weights },
+        origin: BaseMeshOrigin::default(),
+        times: StageTimes::default(),
+    })
+}
+
+/// Position, normal and second fundamental form at every vertex.
+fn vertex_jets(mesh: &TriMesh, source: &dyn FitSource) -> Result<VertexMap<SurfaceJet>, FitError> {
+    VertexMap::try_from_fn(mesh.topology().vertex_count(), |vertex| {
+        let at = mesh.position(vertex);
+        source.surface_jet(vertex, at).ok_or(FitError::Singular { vertex: vertex.index(), at })
+    })
+}
+
+/// One curve per edge, from its lower to its higher vertex.
+fn fit_curves(
+    mesh: &TriMesh,
+    jets: &VertexMap<SurfaceJet>,
+    target: &dyn FitSource,
+    settings: &Settings,
+) -> Result<EdgeMap<EdgeOutcome>, FitError> {
+    EdgeMap::try_from_fn(mesh.topology().edge_count(), |edge| {
+        let [a, b] = mesh.topology().edge_vertices(edge);
+        let samples = curve_samples(&jets[a], &jets[b], target, settings.curve_sections);
+        EdgeProblem::new(&jets[a], &jets[b], &samples)
+            .map(|problem| hermite_sqp::solve(&problem, &settings.curves))
+            .map_err(|reason| FitError::Edge {
+                edge: edge.index(),
+                a: a.index(),
+                b: b.index(),
+                reason,
+            })
+    })
+}
+
+/// Points of the surface near equidistant points of the chord; those that have no foot are left
+/// out.
+fn curve_samples(
+    start: &SurfaceJet,
+    end: &SurfaceJet,
+    target: &dyn SurfaceTarget,
+    sections: usize,
+) -> Vec<CurveSample> {
+    let parameters: Vec<f64> = (1..sections).map(|j| j as f64 / sections as f64).collect();
+    let chord: Vec<_> =
+        parameters.iter().map(|&t| start.point * (1.0 - t) + end.point * t).collect();
+    let mut feet = vec![None; chord.len()];
+    target.feet(&chord, &mut feet);
+    parameters
+        .into_iter()
+        .zip(feet)
+        .filter_map(|(t, foot)| Some(CurveSample { t, point: foot?.point }))
+        .collect()
+}

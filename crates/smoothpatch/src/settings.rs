@@ -1,0 +1,64 @@
+//! The union of the stages' settings.
+
+use basemesh::SimplifySettings;
+use implicit::ProjectionSettings;
+use serde::{Deserialize, Serialize};
+
+/// Which objectives choose among the surfaces that meet all constraints.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum Method {
+    /// The scheme of [TK09] with its errata mended: nearest solutions.
+    #[default]
+    Published,
+}
+
+/// Settings of [`fit`](crate::fit): every number of every stage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The base mesh.
+    pub base_mesh: BaseMeshSettings,
+    /// Newton projection onto the surface.
+    pub projection: ProjectionSettings,
+    /// Sections of a curve between its samples: `sections - 1` samples at equidistant parameters.
+    pub curve_sections: usize,
+    /// The curve of one edge.
+    pub curves: hermite_sqp::Settings,
+    /// The patches.
+    pub patches: g1_triangular::Settings,
+}
+
+/// How the base mesh is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BaseMeshSettings {
+    /// Triangles of the polygonization for each face asked for.
+    pub oversampling: usize,
+    /// Decimation and improvement, with the number of faces asked for.
+    pub simplify: SimplifySettings,
+    /// Rounds of local refinement where the mesh does not resolve the surface.
+    pub repair_rounds: usize,
+}
+
+impl Settings {
+    /// Settings for about this many patches.
+    #[must_use]
+    pub fn with_faces(faces: usize) -> Self {
+        Self {
+            base_mesh: BaseMeshSettings {
+                oversampling: 20,
+                simplify: SimplifySettings::to_faces(faces),
+                repair_rounds: 4,
+            },
+            projection: ProjectionSettings::default(),
+            curve_sections: 10,
+            curves: hermite_sqp::Settings::default(),
+            patches: g1_triangular::Settings::default(),
+        }
+    }
+
+    /// The number of faces asked for.
+    #[must_use]
+    pub fn faces(&self) -> usize {
+        self.base_mesh.simplify.faces
+    }
+}
