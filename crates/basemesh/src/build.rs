@@ -154,7 +154,7 @@ fn pair_halfedges(
         *slot += 1;
     }
     let higher = |word: u64| (word >> 32) as usize;
-    let halfedge = |word: u64| HalfedgeId::new((word & u64::from(u32::MAX)) as usize);
+    let halfedge = |word: u64| HalfedgeId::new((word & 0xffff_ffff) as usize);
 
     let mut twins = HalfedgeMap::from_vec(vec![None; halfedge_count]);
     let mut edge_of = HalfedgeMap::from_vec(vec![EdgeId::new(0); halfedge_count]);

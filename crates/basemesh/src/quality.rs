@@ -60,8 +60,7 @@ fn is_valid_fan(mesh: &TriMesh, v: VertexId, normal: DVec3) -> bool {
         let [first, second] = [h, h.previous()].map(|g| projected_edge(mesh, v, g, normal));
         let sine = first.cross(second).dot(normal);
         let size = (first.length_squared() * second.length_squared()).sqrt();
-        // negated, so that a normal or an edge without direction is invalid
-        if !(sine > MIN_FAN_SINE * size) {
+        if sine.is_nan() || sine <= MIN_FAN_SINE * size {
             return false;
         }
         total += sine.atan2(first.dot(second));

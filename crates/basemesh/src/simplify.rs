@@ -90,10 +90,7 @@ fn check_faces(mesh: &TriMesh, faces: usize) -> Result<(), SimplifyError> {
 }
 
 /// The mesh with all vertices on the surface; frees the input.
-fn on_surface(
-    mesh: TriMesh,
-    target: &dyn SurfaceTarget,
-) -> Result<SurfaceMesh<'_>, SimplifyError> {
+fn on_surface(mesh: TriMesh, target: &dyn SurfaceTarget) -> Result<SurfaceMesh<'_>, SimplifyError> {
     SurfaceMesh::new(&mesh, target).map_err(|edge| {
         let [a, b] = mesh.topology().edge_vertices(edge).map(VertexId::index);
         SimplifyError::Open { a, b }

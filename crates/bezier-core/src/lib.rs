@@ -11,6 +11,7 @@ mod multi_index;
 mod patch;
 mod tetrahedron;
 mod triangle;
+mod turning;
 
 pub use barycentric::Barycentric;
 pub use bernstein::{MAX_DEGREE, bernstein, binomial};
@@ -27,3 +28,4 @@ pub use triangle::{
     BezierTriangle, CubicTriangle, LinearTriangle, QuadraticTriangle, QuarticTriangle,
     QuinticTriangle, SepticTriangle,
 };
+pub use turning::Turning;

@@ -8,8 +8,9 @@ use crate::error::JoinError;
 use crate::faces::{corner_halfedges, local_edge};
 use crate::interior;
 use crate::network::CurveNetwork;
+use crate::plan::{Plan, Rows};
 use crate::residual::g1_residual;
-use crate::settings::{InnerPoints, Settings};
+use crate::tangent_planes;
 use crate::vertex_system::{SpokeSolution, solve_vertices};
 use crate::weights::{EdgeWeights, origin_weights};
 
@@ -43,7 +44,10 @@ impl SmoothPatches {
 }
 
 /// Turns positional patches into smooth ones: the boundary curves stay, twist points, first inner
-/// rows and (by [`Settings::inner_points`]) inner points move.
+/// rows and (by [`Plan::inner_points`]) inner points move.
+///
+/// An edge whose tangent planes cannot be compared with the surface (a foot is missing) gets the
+/// nearest rows instead.
 ///
 /// # Errors
 ///
@@ -51,19 +55,21 @@ impl SmoothPatches {
 ///
 /// # Panics
 ///
-/// If the numbers of jets, curves or patches are not those of the mesh.
+/// If jets, curves, patches or plan are not for this mesh.
 pub fn join(
     mesh: &TriMesh,
     jets: &VertexMap<SurfaceJet>,
     network: &CurveNetwork,
     positional: FaceMap<SepticTriangle>,
     target: &dyn SurfaceTarget,
-    settings: &Settings,
+    plan: &Plan,
 ) -> Result<SmoothPatches, JoinError> {
     let topology = mesh.topology();
     assert_eq!(jets.len(), topology.vertex_count(), "one jet per vertex");
     assert_eq!(network.curves().len(), topology.edge_count(), "one curve per edge");
     assert_eq!(positional.len(), topology.face_count(), "one patch per face");
+    assert_eq!(plan.rows.len(), topology.edge_count(), "one choice per edge");
+    assert_eq!(plan.inner_points.len(), topology.face_count(), "one choice per face");
 
     let origin = origin_weights(mesh, jets, network)?;
     let twist =
@@ -72,14 +78,15 @@ pub fn join(
     let twisted = set_twists(positional, &spokes);
     let edges = EdgeMap::try_from_fn(topology.edge_count(), |edge| {
         let system = EdgeSystem::new(topology, network, &twisted, &origin, &spokes, edge)?;
+        let rows = match plan.rows[edge] {
+            Rows::Nearest => None,
+            Rows::TangentPlanes => tangent_planes::solve(&system, target),
+        };
         let vertex = topology.origin(topology.canonical(edge)).index();
-        system.nearest().ok_or(JoinError::DegenerateFan { vertex })
+        rows.or_else(|| system.nearest()).ok_or(JoinError::DegenerateFan { vertex })
     })?;
     let joined = set_rows(mesh, twisted, &edges);
-    let nets = match settings.inner_points {
-        InnerPoints::Keep => joined,
-        InnerPoints::PointToPlane => interior::fit_point_to_plane(&joined, target),
-    };
+    let nets = joined.map(|face, net| interior::choose(net, plan.inner_points[face], target));
     Ok(SmoothPatches { nets, weights: edges.map(|_, edge| edge.weights) })
 }
 

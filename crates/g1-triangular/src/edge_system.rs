@@ -87,6 +87,11 @@ impl EdgeSystem {
         })
     }
 
+    /// Distance of the ends of the edge.
+    pub(crate) fn chord(&self) -> f64 {
+        self.curve.points[0].distance(self.curve.points[4])
+    }
+
     fn slope(&self) -> f64 {
         self.lambda[1] - self.lambda[0]
     }
@@ -173,8 +178,7 @@ impl EdgeSystem {
         let defect = gram.solve(&(constant - a * x0));
         let response = gram.solve(&linear);
         let denominator = linear.dot(&response);
-        let chord = self.curve.points[0].distance_squared(self.curve.points[4]);
-        let nu = if denominator > NO_LEADING_TERM * chord {
+        let nu = if denominator > NO_LEADING_TERM * self.chord().powi(2) {
             -linear.dot(&defect) / denominator
         } else {
             0.0

@@ -14,7 +14,7 @@ pub(crate) fn local_edge(h: HalfedgeId) -> LocalEdge {
     LocalEdge::starting_at(Corner::ALL[h.corner()])
 }
 
-/// Whether a control point lies on the boundary of the net.
-pub(crate) fn is_boundary(m: MultiIndex) -> bool {
-    m.i == 0 || m.j == 0 || m.k == 0
+/// Whether a control point lies on no edge of the net.
+pub(crate) fn is_inner(m: MultiIndex) -> bool {
+    m.i > 0 && m.j > 0 && m.k > 0
 }

@@ -1,24 +1,18 @@
 //! Step 1: patches whose boundaries are the network, joined without gaps (G0).
 //!
-//! Each patch is the degree-7 polynomial with the given boundary that fits, in the sense of least
-//! squares, the projections of a regular grid on the flat triangle [TK09 (12)].
+//! A patch fits, in the sense of least squares, the projections of a regular grid on the flat
+//! triangle [TK09 (12)]. Its only use is as the starting point of the smooth patch.
 
 use std::sync::LazyLock;
 
 use basemesh::{FaceId, FaceMap, Foot, SurfaceTarget, TriMesh};
 use bezier_core::glam::DVec3;
-use bezier_core::{Barycentric, LocalEdge, MultiIndex, SepticTriangle};
-use nalgebra::DMatrix;
+use bezier_core::{BezierTriangle, LocalEdge, MultiIndex, QuarticTriangle, SepticTriangle};
 
-use crate::faces::{corner_halfedges, is_boundary};
+use crate::faces::{corner_halfedges, is_inner};
 use crate::network::CurveNetwork;
-
-/// Divisions of the sample grid; 9 to 18 change the deviation by less than 3 %.
-const GRID: usize = 12;
-/// Strictly inner points of that grid.
-pub(crate) const SAMPLES: usize = 55;
-const INNER: usize = 15;
-const BOUNDARY: usize = 21;
+use crate::plan::{Fill, Plan};
+use crate::samples::{NetFit, SAMPLES, basis_column, parameters, point_to_plane};
 
 /// Patches that join without gaps, not yet smoothly.
 #[derive(Clone, Debug)]
@@ -29,69 +23,27 @@ pub struct PositionalPatches {
     pub failed_feet: FaceMap<usize>,
 }
 
-/// The parameters of the interior samples of a face.
-pub(crate) fn sample_parameters() -> &'static [Barycentric; SAMPLES] {
-    static PARAMETERS: LazyLock<[Barycentric; SAMPLES]> = LazyLock::new(|| {
-        let mut inner = Barycentric::inner_lattice(GRID);
-        std::array::from_fn(|_| inner.next().expect("invariant: 55 inner points of degree 12"))
-    });
-    &PARAMETERS
-}
-
-/// Inner control points as fixed combinations of boundary control points and samples.
-struct Fit {
-    inner_ranks: [usize; INNER],
-    boundary_ranks: [usize; BOUNDARY],
-    from_boundary: Vec<[f64; BOUNDARY]>,
-    from_samples: Vec<[f64; SAMPLES]>,
-}
-
-static FIT: LazyLock<Fit> = LazyLock::new(|| {
-    let ranks_where = |boundary: bool| {
-        MultiIndex::all(7).filter(move |&m| is_boundary(m) == boundary).map(MultiIndex::rank)
-    };
-    let mut inner = ranks_where(false);
-    let mut boundary = ranks_where(true);
-    let inner_ranks: [usize; INNER] =
-        std::array::from_fn(|_| inner.next().expect("invariant: 15 inner points of degree 7"));
-    let boundary_ranks: [usize; BOUNDARY] =
-        std::array::from_fn(|_| boundary.next().expect("invariant: 21 boundary points"));
-    let basis = |ranks: &[usize]| {
-        DMatrix::from_fn(SAMPLES, ranks.len(), |row, column| {
-            let mut unit = [0.0; 36];
-            unit[ranks[column]] = 1.0;
-            SepticTriangle::<f64>::new(unit).eval(sample_parameters()[row])
-        })
-    };
-    let inner_basis = basis(&inner_ranks);
-    // full rank, well conditioned: QR, no cut-off
-    let qr = inner_basis.qr();
-    let pseudo_inverse = qr
-        .r()
-        .solve_upper_triangular(&qr.q().transpose())
-        .expect("invariant: 55 samples determine 15 control points");
-    let from_boundary = -(&pseudo_inverse * basis(&boundary_ranks));
-    Fit {
-        inner_ranks,
-        boundary_ranks,
-        from_boundary: rows(&from_boundary),
-        from_samples: rows(&pseudo_inverse),
-    }
-});
-
-fn rows<const N: usize>(matrix: &DMatrix<f64>) -> Vec<[f64; N]> {
-    (0..matrix.nrows()).map(|i| std::array::from_fn(|j| matrix[(i, j)])).collect()
-}
-
 /// Fills every face of the mesh with a patch over the curve network.
+///
+/// # Panics
+///
+/// If the plan is not for this mesh.
 #[must_use]
 pub fn fill(
     mesh: &TriMesh,
     network: &CurveNetwork,
     target: &dyn SurfaceTarget,
+    plan: &Plan,
 ) -> PositionalPatches {
-    let filled = FaceMap::from_fn(mesh.topology().face_count(), |face| {
-        fill_face(mesh, network, target, face)
+    let faces = mesh.topology().face_count();
+    assert_eq!(plan.fill.len(), faces, "one choice per face");
+    let filled = FaceMap::from_fn(faces, |face| {
+        let (samples, failed) = samples(mesh, target, face);
+        let net = match plan.fill[face] {
+            Fill::Septic => septic(mesh, network, face, &samples),
+            Fill::Quartic => quartic(mesh, network, target, face, &samples),
+        };
+        (net, failed)
     });
     PositionalPatches {
         nets: filled.map(|_, (net, _)| *net),
@@ -99,43 +51,64 @@ pub fn fill(
     }
 }
 
-fn fill_face(
+/// Feet of the samples of the flat triangle, and how many had none.
+fn samples(mesh: &TriMesh, target: &dyn SurfaceTarget, face: FaceId) -> ([DVec3; SAMPLES], usize) {
+    let [a, b, c] = mesh.triangle(face);
+    let flat = parameters().map(|at| a * at.u + b * at.v + c * at.w);
+    let mut feet: [Option<Foot>; SAMPLES] = [None; SAMPLES];
+    target.feet(&flat, &mut feet);
+    let failed = feet.iter().filter(|foot| foot.is_none()).count();
+    (std::array::from_fn(|j| feet[j].map_or(flat[j], |foot| foot.point)), failed)
+}
+
+fn septic(
+    mesh: &TriMesh,
+    network: &CurveNetwork,
+    face: FaceId,
+    samples: &[DVec3; SAMPLES],
+) -> SepticTriangle {
+    static FIT: LazyLock<NetFit<36>> = LazyLock::new(|| NetFit::new(is_inner));
+    let mut net = BezierTriangle::new([DVec3::ZERO; 36]);
+    set_boundary(&mut net, mesh, network, face);
+    FIT.apply(&mut net, samples);
+    net
+}
+
+/// The inner points of a quartic net.
+const QUARTIC_INNER: [MultiIndex; 3] =
+    [MultiIndex::new(2, 1, 1), MultiIndex::new(1, 2, 1), MultiIndex::new(1, 1, 2)];
+/// Rounds of fitting along the normals, and their damping.
+const QUARTIC_ROUNDS: usize = 2;
+const QUARTIC_DAMPING: f64 = 0.02 * 0.02;
+
+fn quartic(
     mesh: &TriMesh,
     network: &CurveNetwork,
     target: &dyn SurfaceTarget,
     face: FaceId,
-) -> (SepticTriangle, usize) {
-    let mut net = boundary_net(mesh, network, face);
-    let [a, b, c] = mesh.triangle(face);
-    let flat = sample_parameters().map(|at| a * at.u + b * at.v + c * at.w);
-    let mut feet: [Option<Foot>; SAMPLES] = [None; SAMPLES];
-    target.feet(&flat, &mut feet);
-    let failed = feet.iter().filter(|foot| foot.is_none()).count();
-    // a local origin keeps the large coordinates of a far-away face out of the sums
-    let origin = a;
-    let samples: [DVec3; SAMPLES] =
-        std::array::from_fn(|j| feet[j].map_or(flat[j], |foot| foot.point) - origin);
-
-    let fit = &*FIT;
-    let boundary: [DVec3; BOUNDARY] =
-        std::array::from_fn(|j| net.net()[fit.boundary_ranks[j]] - origin);
-    for (i, &rank) in fit.inner_ranks.iter().enumerate() {
-        net.net_mut()[rank] = origin
-            + weighted_sum(&fit.from_samples[i], &samples)
-            + weighted_sum(&fit.from_boundary[i], &boundary);
+    samples: &[DVec3; SAMPLES],
+) -> SepticTriangle {
+    static FIT: LazyLock<NetFit<15>> = LazyLock::new(|| NetFit::new(is_inner));
+    static COLUMNS: LazyLock<[[f64; SAMPLES]; 3]> =
+        LazyLock::new(|| QUARTIC_INNER.map(basis_column::<15>));
+    let mut net: QuarticTriangle = BezierTriangle::new([DVec3::ZERO; 15]);
+    for (edge, h) in LocalEdge::ALL.into_iter().zip(corner_halfedges(face)) {
+        net.set_boundary(edge, &network.along(mesh.topology(), h));
     }
-    (net, failed)
+    FIT.apply(&mut net, samples);
+    for _ in 0..QUARTIC_ROUNDS {
+        let moved = point_to_plane(&net, QUARTIC_INNER, &COLUMNS, QUARTIC_DAMPING, target);
+        net = moved.unwrap_or(net);
+    }
+    let mut elevated = net.elevate_to::<36>();
+    // the same bits in both faces of an edge, which elevation in another order would not give
+    set_boundary(&mut elevated, mesh, network, face);
+    elevated
 }
 
-/// A net with the three boundary curves of a face and zeros inside.
-fn boundary_net(mesh: &TriMesh, network: &CurveNetwork, face: FaceId) -> SepticTriangle {
-    let mut net = SepticTriangle::new([DVec3::ZERO; 36]);
+/// Writes the three boundary curves of a face.
+fn set_boundary(net: &mut SepticTriangle, mesh: &TriMesh, network: &CurveNetwork, face: FaceId) {
     for (edge, h) in LocalEdge::ALL.into_iter().zip(corner_halfedges(face)) {
         net.set_boundary(edge, &network.elevated_along(mesh.topology(), h));
     }
-    net
-}
-
-fn weighted_sum<const N: usize>(weights: &[f64; N], points: &[DVec3; N]) -> DVec3 {
-    weights.iter().zip(points).fold(DVec3::ZERO, |sum, (&weight, &point)| sum + point * weight)
 }

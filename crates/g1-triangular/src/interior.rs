@@ -1,59 +1,162 @@
 //! Step 5: the three control points that no smoothness condition touches.
 
-use basemesh::{FaceMap, Foot, SurfaceTarget};
-use bezier_core::{Barycentric, MultiIndex, SepticTriangle};
-use nalgebra::{SMatrix, SVector};
+use std::sync::LazyLock;
 
-use crate::fill::{SAMPLES, sample_parameters};
+use basemesh::SurfaceTarget;
+use bezier_core::glam::DVec3;
+use bezier_core::{MultiIndex, SepticTriangle, binomial};
+use nalgebra::{DMatrix, SMatrix, SVector};
+
+use crate::plan::InnerPoints;
+use crate::samples::{SAMPLES, basis_column, feet, parameters, point_to_plane};
 
 /// The free control points, by exponents.
 const FREE: [MultiIndex; 3] =
     [MultiIndex::new(3, 2, 2), MultiIndex::new(2, 3, 2), MultiIndex::new(2, 2, 3)];
 /// Rounds of projecting and fitting.
 const ROUNDS: usize = 2;
-/// Damping of the displacement, as a fraction of the mean diagonal of the normal equations.
+/// Damping of the fit along the normals.
 const DAMPING: f64 = 1e-2;
+/// Weight of the part that is not of degree 5 against the part that is not of degree 6, squared.
+const DEGREE_FIVE: f64 = 0.1 * 0.1;
 
-/// Moves the free points of every patch so that it comes closer to the surface along the
-/// surface's normals, in the sense of damped least squares. A patch whose samples cannot be
-/// projected keeps its points.
-pub(crate) fn fit_point_to_plane(
-    nets: &FaceMap<SepticTriangle>,
-    target: &dyn SurfaceTarget,
-) -> FaceMap<SepticTriangle> {
-    nets.map(|_, net| (0..ROUNDS).fold(*net, |net, _| fit_once(&net, target).unwrap_or(net)))
+fn free_columns() -> &'static [[f64; SAMPLES]; 3] {
+    static COLUMNS: LazyLock<[[f64; SAMPLES]; 3]> = LazyLock::new(|| FREE.map(basis_column::<36>));
+    &COLUMNS
 }
 
-fn fit_once(net: &SepticTriangle, target: &dyn SurfaceTarget) -> Option<SepticTriangle> {
-    let parameters = sample_parameters();
-    let points = parameters.map(|at| net.eval(at));
-    let mut feet: [Option<Foot>; SAMPLES] = [None; SAMPLES];
-    target.feet(&points, &mut feet);
+/// Chooses the free points of a patch; one whose samples cannot be projected keeps what it has.
+pub(crate) fn choose(
+    net: &SepticTriangle,
+    objective: InnerPoints,
+    target: &dyn SurfaceTarget,
+) -> SepticTriangle {
+    match objective {
+        InnerPoints::Keep => *net,
+        InnerPoints::PointToPlane => (0..ROUNDS).fold(*net, |net, _| {
+            point_to_plane(&net, FREE, free_columns(), DAMPING, target).unwrap_or(net)
+        }),
+        InnerPoints::LowDegree => (0..ROUNDS)
+            .fold(low_degree(net), |net, _| fit_along_mean_normal(&net, target).unwrap_or(net)),
+    }
+}
 
-    let mut matrix = SMatrix::<f64, 9, 9>::zeros();
-    let mut rhs = SVector::<f64, 9>::zeros();
-    for ((at, point), foot) in parameters.iter().zip(points).zip(feet) {
-        let foot = foot?;
-        let row =
-            SVector::<f64, 9>::from_fn(|c, _| basis_value(FREE[c / 3], *at) * foot.normal[c % 3]);
+/// The free points that make the patch as nearly of degree 6, and with less weight of degree 5, as
+/// the others allow, in the L2 norm over the triangle.
+fn low_degree(net: &SepticTriangle) -> SepticTriangle {
+    static WEIGHTS: LazyLock<[[f64; 36]; 3]> = LazyLock::new(low_degree_weights);
+    let origin = net.net()[0];
+    let mut chosen = *net;
+    for (m, weights) in FREE.into_iter().zip(WEIGHTS.iter()) {
+        chosen[m] = origin
+            + weights
+                .iter()
+                .zip(net.net())
+                .fold(DVec3::ZERO, |sum, (&w, &point)| sum + (point - origin) * w);
+    }
+    chosen
+}
+
+/// The combination of the 33 other points that gives each free point (zero weight on the free ones):
+/// `-Q_ii⁻¹ Q_ik`, `Q = R6 + 0.01 R5`, `R_d` the square of what degree `d` cannot represent.
+fn low_degree_weights() -> [[f64; 36]; 3] {
+    let q = remainder(6) + remainder(5) * DEGREE_FIVE;
+    let free = FREE.map(MultiIndex::rank);
+    let inner = SMatrix::<f64, 3, 3>::from_fn(|i, j| q[(free[i], free[j])]);
+    let inverse = inner.try_inverse().expect("invariant: the free points leave a remainder");
+    let cross =
+        DMatrix::from_fn(3, 36, |i, j| if free.contains(&j) { 0.0 } else { q[(free[i], j)] });
+    let weights = DMatrix::from_fn(3, 3, |i, j| -inverse[(i, j)]) * cross;
+    std::array::from_fn(|i| std::array::from_fn(|j| weights[(i, j)]))
+}
+
+/// The quadratic form of the squared L2 distance of a degree-7 polynomial to degree `d`:
+/// `G - G E (Eᵀ G E)⁻¹ Eᵀ G`, `G` the Gram matrix of the Bernstein basis, `E` elevation from `d`.
+fn remainder(d: usize) -> DMatrix<f64> {
+    let high: Vec<MultiIndex> = MultiIndex::all(7).collect();
+    let low: Vec<MultiIndex> = MultiIndex::all(d).collect();
+    // up to a common factor
+    let gram = DMatrix::from_fn(36, 36, |a, b| {
+        let (m, n) = (high[a], high[b]);
+        binomial(m.i + n.i, m.i) * binomial(m.j + n.j, m.j) * binomial(m.k + n.k, m.k)
+            / binomial(14, 7)
+    });
+    let elevation = DMatrix::from_fn(36, low.len(), |a, b| {
+        let (m, s) = (high[a], low[b]);
+        if s.i > m.i || s.j > m.j || s.k > m.k {
+            return 0.0;
+        }
+        binomial(m.i, s.i) * binomial(m.j, s.j) * binomial(m.k, s.k) / binomial(7, d)
+    });
+    let image = &gram * &elevation;
+    let low_gram = elevation.transpose() * &image;
+    let projected = low_gram
+        .cholesky()
+        .expect("invariant: a Gram matrix is positive definite")
+        .solve(&image.transpose());
+    gram - image * projected
+}
+
+/// Moves the free points along the mean normal of the samples' feet: three unknowns.
+fn fit_along_mean_normal(
+    net: &SepticTriangle,
+    target: &dyn SurfaceTarget,
+) -> Option<SepticTriangle> {
+    let points = parameters().map(|at| net.eval(at));
+    let feet = feet(target, &points)?;
+    let direction = feet.iter().map(|foot| foot.normal).sum::<DVec3>().try_normalize()?;
+    let columns = free_columns();
+    let mut matrix = SMatrix::<f64, 3, 3>::zeros();
+    let mut rhs = SVector::<f64, 3>::zeros();
+    for (j, (point, foot)) in points.iter().zip(&feet).enumerate() {
+        let lean = foot.normal.dot(direction);
+        let row = SVector::<f64, 3>::from_fn(|c, _| columns[c][j] * lean);
         matrix += row * row.transpose();
         rhs += row * (foot.point - point).dot(foot.normal);
     }
-    let damping = DAMPING * matrix.trace() / 9.0;
-    let damped = matrix + SMatrix::<f64, 9, 9>::identity() * damping;
-    let displacement = damped.cholesky()?.solve(&rhs);
-
+    let moves = matrix.cholesky()?.solve(&rhs);
     let mut fitted = *net;
     for (slot, m) in FREE.into_iter().enumerate() {
-        for axis in 0..3 {
-            fitted[m][axis] += displacement[3 * slot + axis];
-        }
+        fitted[m] += direction * moves[slot];
     }
     Some(fitted)
 }
 
-fn basis_value(m: MultiIndex, at: Barycentric) -> f64 {
-    let mut unit = SepticTriangle::<f64>::new([0.0; 36]);
-    unit[m] = 1.0;
-    unit.eval(at)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values printed by an independent implementation for the point (3, 2, 2).
+    #[test]
+    fn low_degree_weights_agree() {
+        let [row, ..] = low_degree_weights();
+        let weight = |i, j, k| row[MultiIndex::new(i, j, k).rank()];
+        for (got, expected) in [
+            (weight(7, 0, 0), -0.040_999),
+            (weight(5, 1, 1), -0.465_461),
+            (weight(4, 2, 1), 0.370_520),
+            (weight(4, 1, 2), 0.370_520),
+            (weight(1, 4, 2), 0.068_182),
+            (weight(2, 4, 1), -0.052_093),
+            (weight(0, 7, 0), -0.032_416),
+            (weight(0, 0, 7), -0.032_416),
+        ] {
+            assert!((got - expected).abs() <= 0.5e-6, "{got} for {expected}");
+        }
+        assert!((row.iter().sum::<f64>() - 1.0).abs() <= 1e-12, "affine combination");
+    }
+
+    #[test]
+    fn degree_five_is_reproduced() {
+        let quintic = bezier_core::QuinticTriangle::from_fn(|m| {
+            DVec3::new((m.i * m.j) as f64, (m.j * m.k) as f64, (m.i + 2 * m.k * m.k) as f64)
+        });
+        let elevated = quintic.elevate_to::<36>();
+        let mut disturbed = elevated;
+        FREE.into_iter().for_each(|m| disturbed[m] += DVec3::new(1.0, -2.0, 3.0));
+        for m in FREE {
+            let distance = low_degree(&disturbed)[m].distance(elevated[m]);
+            assert!(distance <= 1e-12 * elevated[m].length(), "{distance:e}");
+        }
+    }
 }

@@ -3,6 +3,7 @@
 mod kkt;
 mod outcome;
 mod problem;
+mod refine;
 mod settings;
 mod solve;
 mod start;
@@ -10,5 +11,6 @@ mod start;
 pub use bezier_core;
 pub use outcome::{EdgeOutcome, EdgeStatus, FallbackReason};
 pub use problem::{CurveSample, EdgeProblem, EdgeProblemError};
-pub use settings::Settings;
+pub use refine::{CurveFoot, Refined, refine};
+pub use settings::{CurveRefinement, Settings};
 pub use solve::solve;

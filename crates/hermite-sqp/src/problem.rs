@@ -12,7 +12,7 @@
 //! Everything inside is in units of the chord `L = |q4 - q0|` with `q0` as the origin, so that
 //! tolerances are relative and scaling by a power of two is exact.
 
-use bezier_core::glam::DVec3;
+use bezier_core::glam::{DMat3, DVec3};
 use bezier_core::{QuarticCurve, SurfaceJet, bernstein};
 use nalgebra::{SMatrix, SVector, Vector3};
 
@@ -73,6 +73,8 @@ pub struct EdgeProblem {
     corners: [DVec3; 2],
     pub(crate) chord: f64,
     pub(crate) ends: [End; 2],
+    /// Second fundamental forms at the ends, times the chord length.
+    forms: [DMat3; 2],
     pub(crate) matrix: SMatrix<f64, 5, 5>,
     pub(crate) rhs: Unknowns,
 }
@@ -115,6 +117,7 @@ impl EdgeProblem {
             corners: [start.point, end.point],
             chord,
             ends,
+            forms: [start, end].map(|jet| jet.second_fundamental_form * chord),
             matrix: SMatrix::zeros(),
             rhs: SVector::zeros(),
         };
@@ -167,16 +170,28 @@ impl EdgeProblem {
         gradients
     }
 
+    /// The second fundamental form at an end, times the chord length: for vectors in chord
+    /// lengths, a length in chord lengths.
+    pub(crate) fn second_form(&self, end: usize, a: DVec3, b: DVec3) -> f64 {
+        self.forms[end].mul_vec3(b).dot(a)
+    }
+
     /// The curve of these unknowns, in world coordinates.
     pub(crate) fn curve(&self, x: &Unknowns) -> QuarticCurve {
         let [start, end] = &self.ends;
-        let world = |p: DVec3| self.corners[0] + p * self.chord;
+        self.curve_with(start.tangent * x[0], DVec3::new(x[2], x[3], x[4]), end.tangent * x[1])
+    }
+
+    /// The curve with these end tangents and middle point, in chord lengths relative to the start
+    /// of the edge (the last tangent relative to its end), in world coordinates.
+    pub(crate) fn curve_with(&self, first: DVec3, middle: DVec3, last: DVec3) -> QuarticCurve {
+        let [q0, q4] = self.corners;
         QuarticCurve::new([
-            self.corners[0],
-            world(start.tangent * x[0]),
-            world(DVec3::new(x[2], x[3], x[4])),
-            self.corners[1] + end.tangent * (x[1] * self.chord),
-            self.corners[1],
+            q0,
+            q0 + first * self.chord,
+            q0 + middle * self.chord,
+            q4 + last * self.chord,
+            q4,
         ])
     }
 }

@@ -1,5 +1,18 @@
 //! Settings of the curve solver.
 
+/// How far curves are drawn towards the surface after [`solve`](crate::solve).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum CurveRefinement {
+    /// Not at all: the published scheme.
+    #[default]
+    None,
+    /// With end tangents of fixed direction: three free numbers a curve.
+    TangentFixed,
+    /// With end tangents that may turn in the tangent planes: five free numbers a curve.
+    TangentFree,
+}
+
 /// Numbers that steer [`solve`](crate::solve); all dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

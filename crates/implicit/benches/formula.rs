@@ -9,13 +9,13 @@ use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterio
 use glam::{DMat3, DVec3};
 use implicit::{Aabb, FieldJet, Formula, ImplicitSurface, NamedShape, catalogue};
 
-const BATCH: usize = 1024;
+const BATCH: u32 = 1024;
 
 /// Points spread over the box without pattern, the same in every run (Weyl sequence).
 fn points(region: &Aabb) -> Vec<DVec3> {
     let steps =
         DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_2);
-    (0..BATCH as u32).map(|i| region.min + region.size() * (steps * f64::from(i)).fract()).collect()
+    (0..BATCH).map(|i| region.min + region.size() * (steps * f64::from(i)).fract()).collect()
 }
 
 fn one_point(
@@ -59,7 +59,7 @@ fn shapes(c: &mut Criterion) {
         let points = points(&shape.region);
         let fields: [(&str, Box<dyn ImplicitSurface>); 2] = [
             ("shape", shape.field()),
-            ("formula", Box::new(Formula::parse(shape.formula).unwrap())),
+            ("formula", Box::new(Formula::parse(shape.formula).expect("in the catalogue"))),
         ];
         for (kind, field) in fields {
             let mut group = c.benchmark_group(kind);
@@ -71,9 +71,9 @@ fn shapes(c: &mut Criterion) {
 }
 
 fn enclosure(c: &mut Criterion) {
-    let shape = NamedShape::find("dodecahedron").unwrap();
+    let shape = NamedShape::find("dodecahedron").expect("in the catalogue");
     let region = shape.region.expanded(0.1);
-    let formula = Formula::parse(shape.formula).unwrap();
+    let formula = Formula::parse(shape.formula).expect("in the catalogue");
     let mut group = c.benchmark_group("enclosure");
     group.bench_function("shape/dodecahedron", |b| {
         let field = shape.field();
@@ -86,7 +86,7 @@ fn enclosure(c: &mut Criterion) {
 }
 
 fn parse(c: &mut Criterion) {
-    let text = NamedShape::find("deccube").unwrap().formula;
+    let text = NamedShape::find("deccube").expect("in the catalogue").formula;
     c.bench_function("parse/deccube", |b| b.iter(|| Formula::parse(black_box(text))));
 }
 

@@ -19,7 +19,7 @@ pub struct SurfacePoint {
     pub second_fundamental_form: DMat3,
 }
 
-/// The gradient vanishes, or a derivative is not finite: the surface has no normal or no curvature
+/// The gradient vanishes, or the value or a derivative is not finite: the surface has no normal or no curvature
 /// there.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("no normal or curvature at {point}: the gradient is {gradient}")]
@@ -57,10 +57,10 @@ const UMBILIC_ULPS: f64 = 16.0;
 /// set.
 ///
 /// # Errors
-/// If the gradient is exactly zero or a derivative is not finite. Nearness to a singular point is
+/// If the gradient is exactly zero, or the value or a derivative is not finite. Nearness to a singular point is
 /// no error: the curvature is then large.
 ///
-/// [TK09 (5)] with the sign that its Eq. (8) uses and the symmetric P H P: (I − N Nᵀ) H alone is not
+/// \[TK09 (5)\] with the sign that its Eq. (8) uses and the symmetric P H P: (I − N Nᵀ) H alone is not
 /// symmetric, and N is no eigenvector of it.
 pub fn surface_point(
     field: &dyn TwiceDifferentiable,
@@ -68,7 +68,7 @@ pub fn surface_point(
 ) -> Result<SurfacePoint, SingularPoint> {
     let jet = field.jet(p);
     let slope = jet.gradient.length();
-    if !(slope > 0.0 && slope.is_finite() && jet.hessian.is_finite()) {
+    if !(slope > 0.0 && slope.is_finite() && jet.value.is_finite() && jet.hessian.is_finite()) {
         return Err(SingularPoint { point: p, gradient: jet.gradient });
     }
     let normal = jet.gradient / slope;

@@ -21,8 +21,8 @@ impl Outer {
                 let degree = f64::from(n);
                 Self {
                     value: Number::powi(u, n),
-                    first: degree * Number::powi(u, n - 1),
-                    second: degree * (degree - 1.0) * Number::powi(u, n - 2),
+                    first: degree * Number::powi(u, n.saturating_sub(1)),
+                    second: degree * (degree - 1.0) * Number::powi(u, n.saturating_sub(2)),
                 }
             }
         }

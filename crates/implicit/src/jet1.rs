@@ -71,6 +71,7 @@ impl Sub for Jet1 {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
 impl Mul for Jet1 {
     type Output = Self;
     #[inline]

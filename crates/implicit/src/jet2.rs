@@ -121,6 +121,7 @@ impl Sub for Jet2 {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
 impl Mul for Jet2 {
     type Output = Self;
     #[inline]

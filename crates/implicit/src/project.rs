@@ -50,6 +50,7 @@ pub enum ProjectionError {
 /// If the field's round-off is coarser than that, it stops at the round-off: once the estimate is
 /// below √ε · `length`, where a Newton step would halve it many times over, a step that does not
 /// reduce it at all ends the iteration, and the better of the two points is the result.
+/// (A length below some 10⁻⁷ of the coordinates is itself near round-off, and may not converge.)
 /// Converges quadratically from points closer than the smallest radius of curvature.
 ///
 /// The result is near the closest point but not equal to it: the offset is of second order in the
@@ -59,7 +60,7 @@ pub enum ProjectionError {
 /// If the gradient vanishes or something is not finite on the way, or
 /// [`max_iterations`](ProjectionSettings::max_iterations) steps were not enough.
 ///
-/// [TK09 (4)], whose stopping rule ε/length has the wrong dimension; the step cap and the rule for
+/// \[TK09 (4)\], whose stopping rule ε/length has the wrong dimension; the step cap and the rule for
 /// round-off are ours.
 pub fn project(
     field: &dyn ImplicitField,

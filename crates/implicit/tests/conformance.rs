@@ -36,7 +36,7 @@ const FORMULAS: [&str; 22] = [
 ];
 
 fn formula_region() -> Aabb {
-    Aabb::new(DVec3::splat(0.2), DVec3::splat(1.8)).unwrap()
+    Aabb::new(DVec3::splat(0.2), DVec3::splat(1.8)).expect("ordered")
 }
 
 fn check_all(name: &str, field: &dyn ImplicitSurface, region: &Aabb) {
@@ -48,7 +48,7 @@ fn check_all(name: &str, field: &dyn ImplicitSurface, region: &Aabb) {
     check_enclosure(name, field, region, 1000);
     for center in sample_points(&inner, 20) {
         let half = DVec3::splat(0.02 * size);
-        check_enclosure(name, field, &Aabb::new(center - half, center + half).unwrap(), 50);
+        check_enclosure(name, field, &Aabb { min: center - half, max: center + half }, 50);
     }
 }
 
@@ -171,7 +171,7 @@ fn any_box() -> impl Strategy<Value = Aabb> {
     ([coordinate(), coordinate(), coordinate()], [size(), size(), size()]).prop_map(
         |(center, size)| {
             let (center, size) = (DVec3::from_array(center), DVec3::from_array(size));
-            Aabb::new(center - size, center + size).unwrap()
+            Aabb { min: center - size, max: center + size }
         },
     )
 }

@@ -306,10 +306,8 @@ impl EditMesh {
     /// The mesh without dead slots; vertex order is kept.
     pub(crate) fn into_mesh(mut self) -> TriMesh {
         self.compact();
-        let faces: Vec<[usize; 3]> =
-            self.corners.iter().map(|f| f.map(VertexId::index)).collect();
-        TriMesh::new(self.positions, &faces)
-            .expect("invariant: edits keep a finite manifold mesh")
+        let faces: Vec<[usize; 3]> = self.corners.iter().map(|f| f.map(VertexId::index)).collect();
+        TriMesh::new(self.positions, &faces).expect("invariant: edits keep a finite manifold mesh")
     }
 }
 

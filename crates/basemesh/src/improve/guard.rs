@@ -58,11 +58,7 @@ impl OldFace {
 
     /// What two faces were together: the worse of both.
     pub(crate) fn worse(a: Self, b: Self) -> Self {
-        Self {
-            area: a.area + b.area,
-            quality: a.quality.min(b.quality),
-            lean: a.lean.min(b.lean),
-        }
+        Self { area: a.area + b.area, quality: a.quality.min(b.quality), lean: a.lean.min(b.lean) }
     }
 }
 

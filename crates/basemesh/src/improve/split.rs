@@ -111,9 +111,9 @@ impl Piece {
 
 /// Appends the pieces of a triangle, cut from the longest marked side until none is left.
 fn cut(piece: Piece, faces: &mut Vec<[usize; 3]>) {
-    let longest = (0..3).filter_map(|k| piece.sides[k].map(|side| (k, side))).max_by(|x, y| {
-        x.1.length.total_cmp(&y.1.length).then(y.1.edge.cmp(&x.1.edge))
-    });
+    let longest = (0..3)
+        .filter_map(|k| piece.sides[k].map(|side| (k, side)))
+        .max_by(|x, y| x.1.length.total_cmp(&y.1.length).then(y.1.edge.cmp(&x.1.edge)));
     let Some((k, Side { middle, .. })) = longest else {
         faces.push(piece.corners);
         return;

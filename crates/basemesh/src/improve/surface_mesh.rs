@@ -49,8 +49,10 @@ impl<'a> SurfaceMesh<'a> {
             let near = |foot: &Foot| is_near(foot, mesh.position(v), mesh.longest_edge(v));
             feet[v.index()].filter(near)
         });
-        let fallback: Vec<DVec3> =
-            projected.iter().map(|(v, foot)| foot.map_or_else(|| self.face_normal(v), |f| f.normal)).collect();
+        let fallback: Vec<DVec3> = projected
+            .iter()
+            .map(|(v, foot)| foot.map_or_else(|| self.face_normal(v), |f| f.normal))
+            .collect();
         self.normals = fallback;
         self.off_surface = projected.as_slice().iter().map(Option::is_none).collect();
         for (v, foot) in projected.iter() {

@@ -2,9 +2,9 @@
 
 /// The results in the order of the items, whatever the number of threads.
 #[cfg(feature = "rayon")]
-pub(super) fn map<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
+pub(super) fn map<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Send + Sync) -> Vec<R> {
     use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-    items.par_iter().map(|item| f(item)).collect()
+    items.par_iter().map(f).collect()
 }
 
 /// The results in the order of the items.

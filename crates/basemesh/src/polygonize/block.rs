@@ -150,7 +150,7 @@ impl Block {
         let inside = self.inside;
         members(any & !all & corner_box(self.cells)).map(move |cell| {
             let near = inside >> bit(cell);
-            let pair = |shift: u32| (near >> shift) as u8 & 0b11;
+            let pair = |shift: u32| (near >> shift & 0b11) as u8;
             let [_, y, z] = STRIDES;
             (cell, pair(0) | pair(y) << 2 | pair(z) << 4 | pair(y + z) << 6)
         })

@@ -7,7 +7,7 @@ use super::error::PolygonizeError;
 use super::nodes::CELLS as BLOCK;
 
 /// Most cells along one axis.
-const MAX_CELLS: usize = 1 << 20;
+const MAX_CELLS: f64 = (1 << 20) as f64;
 
 /// A cell is at least this large in units of the largest coordinate, so that a position on a grid
 /// edge has 18 bits to spare beyond the smallest distance from a node.
@@ -43,7 +43,7 @@ impl Grid {
             return Err(PolygonizeError::InvalidRegion { region: *region });
         }
         let reach = region.min.abs().max(region.max.abs()).max_element();
-        let max = (longest / (reach * MIN_RELATIVE_STEP)).min(MAX_CELLS as f64) as usize;
+        let max = whole((longest / (reach * MIN_RELATIVE_STEP)).min(MAX_CELLS)) as usize;
         if cells == 0 || cells > max {
             return Err(PolygonizeError::InvalidCells { cells, max });
         }
@@ -51,7 +51,7 @@ impl Grid {
         let counts = (size / step).ceil() + DVec3::ONE;
         let padding = counts * step - size;
         let origin = region.min - padding * DVec3::from_array(LOWER_SHARE);
-        let cells = counts.to_array().map(|count| count as u32);
+        let cells = counts.to_array().map(whole);
         Ok(Self { origin, step, cells })
     }
 
@@ -90,4 +90,10 @@ impl Grid {
         let upper = std::array::from_fn(|axis| (lower[axis] + side).min(self.cells[axis]));
         Some(Aabb { min: self.node(lower), max: self.node(upper) })
     }
+}
+
+/// The integer part.
+#[expect(clippy::cast_possible_truncation, reason = "numbers of cells are below 2^21")]
+fn whole(number: f64) -> u32 {
+    number as u32
 }

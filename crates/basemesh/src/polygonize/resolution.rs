@@ -86,14 +86,14 @@ pub fn polygonize_to_faces(
     let mut mesh =
         if cells == first.cells { first.mesh } else { at_resolution(field, region, cells)? };
     let mut found = count(Some(&mesh), cells);
-    let coarse_cells = (cells as f64 * COARSER).round() as usize;
+    let coarse_cells = times(cells, COARSER);
     let mut compared = count(seen(field, region, coarse_cells)?.as_ref(), coarse_cells);
     for _ in 0..REFINEMENTS {
         if agree(&found, &compared) {
             break;
         }
         compared = found;
-        cells = (cells as f64 / COARSER).round() as usize;
+        cells = times(cells, 1.0 / COARSER);
         mesh = at_resolution(field, region, cells)?;
         found = count(Some(&mesh), cells);
     }
@@ -113,7 +113,7 @@ impl FirstLook {
     /// The number of cells for `faces` triangles, at least the fewest.
     fn cells_for(&self, faces: usize) -> usize {
         let ratio = faces as f64 / self.mesh.topology().face_count() as f64;
-        self.fewest.max((self.cells as f64 * ratio.sqrt()).round() as usize)
+        self.fewest.max(times(self.cells, ratio.sqrt()))
     }
 }
 
@@ -139,6 +139,12 @@ fn first_look(
     }
     let cells = look.cells_for(enough);
     Ok(FirstLook { mesh: at_resolution(field, region, cells)?, cells, ..look })
+}
+
+/// The integer next to a multiple; too many cells are refused by the grid.
+#[expect(clippy::cast_possible_truncation, reason = "the conversion saturates")]
+fn times(cells: usize, factor: f64) -> usize {
+    (cells as f64 * factor).round() as usize
 }
 
 fn at_resolution(

@@ -53,13 +53,13 @@ impl Stitcher<'_> {
     /// faces; bit a of the index tells that the neighbour is one further along axis a.
     fn owners(&self, number: usize) -> [Option<usize>; 8] {
         let index = self.blocks[number].index;
-        std::array::from_fn(|shift| match shift {
+        [0, 1, 2, 3, 4, 5, 6, 7].map(|shift: u32| match shift {
             0 => Some(number),
             // no edge of a block starts at its last node
             7 => None,
             _ => find(
                 self.blocks,
-                morton::code(std::array::from_fn(|axis| index[axis] + (shift as u32 >> axis & 1))),
+                morton::code(std::array::from_fn(|axis| index[axis] + (shift >> axis & 1))),
             ),
         })
     }

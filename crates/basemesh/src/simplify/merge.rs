@@ -51,4 +51,3 @@ pub(super) fn vertex_quadrics(mesh: &EditMesh, isotropy: f64) -> Vec<Quadric> {
     }
     quadrics
 }
-

@@ -64,9 +64,8 @@ fn cheapest(mesh: &EditMesh, quadrics: &[Quadric], count: usize) -> Vec<(f64, Ha
     for block in priced.into_vec() {
         all.extend(block);
     }
-    let order = |x: &(f64, HalfedgeId), y: &(f64, HalfedgeId)| {
-        x.0.total_cmp(&y.0).then(x.1.cmp(&y.1))
-    };
+    let order =
+        |x: &(f64, HalfedgeId), y: &(f64, HalfedgeId)| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1));
     if count < all.len() {
         all.select_nth_unstable_by(count, order);
         all.truncate(count);

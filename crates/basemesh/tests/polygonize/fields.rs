@@ -95,6 +95,7 @@ pub(crate) fn noise(seed: u64, p: DVec3) -> f64 {
 
 /// Signs at the points of a grid with spacing one: `inside` is asked for the indices of a unit cube;
 /// all sizes of the values differ, and outside [0, size)³ the field is positive.
+#[expect(clippy::cast_possible_truncation, reason = "indices lie in 0..size")]
 pub(crate) fn sign_grid(
     size: u32,
     seed: u64,

@@ -49,7 +49,7 @@ fn discarding_boxes_changes_nothing() {
 
 /// FNV-1a over all bits of a mesh.
 fn digest(mesh: &TriMesh) -> u64 {
-    let coordinates = mesh.positions().as_slice().iter().flat_map(|p| p.to_array());
+    let coordinates = mesh.positions().as_slice().iter().flat_map(DVec3::to_array);
     let indices = mesh.face_indices().into_iter().flatten().map(|i| i as u64);
     coordinates
         .map(f64::to_bits)

@@ -1,6 +1,6 @@
 //! The same bits every time, in every unit of length.
 
-use basemesh::{SimplifySettings, Simplified, SurfaceTarget, TriMesh, simplify};
+use basemesh::{Simplified, SimplifySettings, SurfaceTarget, TriMesh, simplify};
 
 use crate::support::{Scaled, Torus, map_positions, noise, torus_mesh};
 

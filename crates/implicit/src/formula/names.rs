@@ -4,6 +4,9 @@ use super::error::FormulaErrorKind;
 use super::lexer::is_name_character;
 use super::tape::{Binary, Unary};
 
+/// Names with more bytes get no suggestion, because the search takes time quadratic in the length.
+const LONGEST_CORRECTED: usize = 64;
+
 /// What a name stands for.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Meaning {
@@ -83,8 +86,9 @@ impl<'c> Names<'c> {
             "pow" => return "write `a^b`".to_owned(),
             _ => {}
         }
-        let nearest = known().map(|known| (edit_distance(&lower, known), known)).min();
-        match nearest {
+        let is_short = name.len() <= LONGEST_CORRECTED;
+        let distances = known().map(|known| (edit_distance(&lower, known), known));
+        match is_short.then(|| distances.min()).flatten() {
             // half the name wrong is a different name
             Some((distance, known)) if 2 * distance < known.chars().count().max(2) => {
                 format!("did you mean `{known}`?")
@@ -98,18 +102,24 @@ fn built_in(name: &str) -> Option<Meaning> {
     BUILT_IN.iter().find(|(known, _)| *known == name).map(|&(_, meaning)| meaning)
 }
 
-/// The number of characters to insert, drop or replace to turn one name into the other.
+/// The number of characters to insert, drop, replace or swap with a neighbour to turn one name into
+/// the other.
 fn edit_distance(from: &str, to: &str) -> usize {
-    let to: Vec<char> = to.chars().collect();
-    let mut row: Vec<usize> = (0..=to.len()).collect();
-    for (i, a) in from.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, b) in to.iter().enumerate() {
-            let replaced = diagonal + usize::from(a != *b);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+    let [from, to]: [Vec<char>; 2] = [from.chars().collect(), to.chars().collect()];
+    // distance[i][j] between the first i and the first j characters
+    let mut distance = vec![vec![0; to.len() + 1]; from.len() + 1];
+    for i in 0..=from.len() {
+        for j in 0..=to.len() {
+            distance[i][j] = if i == 0 || j == 0 {
+                i + j
+            } else {
+                let replaced = distance[i - 1][j - 1] + usize::from(from[i - 1] != to[j - 1]);
+                replaced.min(distance[i - 1][j] + 1).min(distance[i][j - 1] + 1)
+            };
+            if i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1] {
+                distance[i][j] = distance[i][j].min(distance[i - 2][j - 2] + 1);
+            }
         }
     }
-    row[to.len()]
+    distance[from.len()][to.len()]
 }

@@ -6,7 +6,7 @@ use crate::number::Number;
 /// The quartic f = (x² + y² + z² − ak²)² − b ((z − k)² − 2x²)((z + k)² − 2y²), genus 3 for the
 /// default parameters.
 ///
-/// [`Default`] has a = 0.95, b = 0.8, k = 5, as in [TK09].
+/// [`Default`] has a = 0.95, b = 0.8, k = 5, as in \[TK09\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Chair {

@@ -6,7 +6,7 @@ use crate::number::Number;
 /// The decorated cube, degree 12: f is the product of (x² + y² − a²)² + (z² − 1)² and its two
 /// cyclic companions, minus b; six linked rings, genus 13 for the default parameters.
 ///
-/// [`Default`] has a = 0.8, b = 0.02, as in [TK09].
+/// [`Default`] has a = 0.8, b = 0.02, as in \[TK09\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Deccube {

@@ -1,9 +1,9 @@
-//! The surface with the rotations of a dodecahedron's cube.
+//! The rounded dodecahedron.
 
 use crate::expression::Expression;
 use crate::number::Number;
 
-/// The sextic f = x⁶ + y⁶ + z⁶ + 20 (x⁴y² + y⁴z² + z⁴x²) − 1, a rounded dodecahedron [TK09].
+/// The sextic f = x⁶ + y⁶ + z⁶ + 20 (x⁴y² + y⁴z² + z⁴x²) − 1, a rounded dodecahedron \[TK09\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Dodecahedron;

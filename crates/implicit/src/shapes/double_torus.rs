@@ -3,7 +3,7 @@
 use crate::expression::Expression;
 use crate::number::Number;
 
-/// The double torus f = x⁸ − 2x⁶ + x⁴ + 2x⁴y² − 2x²y² + y⁴ + z² − 0.04, genus 2 [TK09].
+/// The double torus f = x⁸ − 2x⁶ + x⁴ + 2x⁴y² − 2x²y² + y⁴ + z² − 0.04, genus 2 \[TK09\].
 ///
 /// The polynomial is evaluated as (x⁴ − x² + y²)² + z² − 0.04, which is the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

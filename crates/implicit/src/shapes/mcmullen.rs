@@ -3,7 +3,7 @@
 use crate::expression::Expression;
 use crate::number::Number;
 
-/// The surface f = (x² + 1)(y² + 1)(z² + 1) + 8xyz − 2, genus 0 with four bumps [TK09].
+/// The surface f = (x² + 1)(y² + 1)(z² + 1) + 8xyz − 2, genus 0 with four bumps \[TK09\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct McMullen;

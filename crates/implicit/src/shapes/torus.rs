@@ -6,7 +6,7 @@ use crate::number::Number;
 /// The torus f = (√(x² + y²) − R)² + z² − r² around the z-axis, genus 1 for r < R.
 ///
 /// On the axis, far from the surface, the field has no derivative.
-/// [`Default`] has R = 5, r = 1, as in [TK09].
+/// [`Default`] has R = 5, r = 1, as in \[TK09\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Torus {

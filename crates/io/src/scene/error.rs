@@ -101,7 +101,14 @@ pub enum SceneError {
 impl From<ron::error::SpannedError> for SceneError {
     fn from(error: ron::error::SpannedError) -> Self {
         let ron::error::Position { line, col: column } = error.span.start;
-        Self::Syntax { line, column, message: lower_case_start(&error.code.to_string()) }
+        let message = match error.code {
+            ron::Error::MissingStructField { field, outer } => {
+                let owner = outer.unwrap_or_else(|| "the scene".to_owned());
+                format!("the field `{field}` of `{owner}` is missing before this place")
+            }
+            other => lower_case_start(&other.to_string()),
+        };
+        Self::Syntax { line, column, message }
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! The `n` Bernstein polynomials at the `n` points of the regular lattice form a regular matrix `A`
 //! with `samples = A · control points`; for a boundary curve likewise. Rounding in the samples, of
-//! the size ε, is amplified to at most `‖A⁻¹‖∞ ε`: a factor near 1e3 in degree 7 and 4e5 in degree 12.
+//! the size ε, is amplified to at most `‖A⁻¹‖∞ ε`: a factor 10 in degree 3, 412 in degree 7, 5e4 in
+//! degree 12.
 
 use basemesh::{FaceMap, Topology};
 use bezier_core::{Barycentric, BezierTriangle, LocalEdge, MultiIndex};
@@ -52,9 +53,10 @@ impl<const P: usize> Interpolation<P> {
                 if topology.canonical(topology.edge(halfedge)) != halfedge {
                     ranks.reverse();
                 }
-                let on_curve = || ranks.iter().map(|&rank| on_patch.net()[rank]);
-                for step in 1..Self::DEGREE {
-                    patch.net_mut()[ranks[step]] = combine(&self.curve[step], on_curve());
+                let on_curve: Vec<_> = ranks.iter().map(|&rank| on_patch.net()[rank]).collect();
+                let inner = ranks.iter().zip(&self.curve).take(Self::DEGREE).skip(1);
+                for (&rank, weights) in inner {
+                    patch.net_mut()[rank] = combine(weights, on_curve.iter().copied());
                 }
             }
             patch
@@ -85,8 +87,7 @@ fn inverse(mut matrix: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         let scale = matrix[step][step].recip();
         matrix[step].iter_mut().for_each(|value| *value *= scale);
         let reduced = matrix[step].clone();
-        for (row, values) in matrix.iter_mut().enumerate().filter(|&(row, _)| row != step) {
-            debug_assert_ne!(row, step, "the pivot row stays");
+        for (_, values) in matrix.iter_mut().enumerate().filter(|&(row, _)| row != step) {
             let factor = values[step];
             values.iter_mut().zip(&reduced).for_each(|(value, other)| *value -= factor * other);
         }

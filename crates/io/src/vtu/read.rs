@@ -21,7 +21,8 @@ use crate::node_order::node_order;
 /// ids. In other files vertices are numbered in the order of their point ids, and neighbours are
 /// cells that use the *same* points: merge points that merely coincide before (in ParaView: Clean to
 /// Grid). Lagrange cells are converted to Bézier form, which amplifies the rounding of their points
-/// (by up to 1e3 in degree 7); exact neighbours stay exact neighbours.
+/// (by up to 10 in degree 3, 412 in degree 7, 5e4 in degree 12); exact neighbours stay exact
+/// neighbours.
 ///
 /// Numbers may be text or inline base64, of either byte order; appended or compressed data and
 /// rational patches are refused. Bytes that are not such a file are refused with an error, never a

@@ -117,7 +117,7 @@ fn write_grid(
     writeln!(out, r#"<Piece NumberOfPoints="{}" NumberOfCells="{cells}">"#, points.len())?;
     write_cell_data(out, options)?;
     writeln!(out, "<Points>")?;
-    let coordinates = points.iter().flat_map(|point| point.to_array());
+    let coordinates = points.iter().flat_map(DVec3::to_array);
     let head = ArrayHead { name: "Points", components: 3, count: 3 * points.len(), per_line: 3 };
     write_array(out, options.encoding, head, coordinates)?;
     writeln!(out, "</Points>\n<Cells>")?;

@@ -1,7 +1,7 @@
 //! What every field of `implicit` promises.
 
 use glam::DVec3;
-use implicit::{Aabb, BoundedField, FieldJet, ImplicitField, TwiceDifferentiable};
+use implicit::{Aabb, BoundedField, FieldJet, TwiceDifferentiable};
 
 /// Points spread over a box without pattern, the same in every run (a Weyl sequence whose steps
 /// are powers of the root of x⁴ = x + 1).
@@ -110,7 +110,7 @@ impl DifferenceError {
             let bend = (ahead.gradient - behind.gradient) / (2.0 * step);
             // unlike f64::max this does not lose NaN
             let raise = |to: &mut f64, by: f64| {
-                if !(by <= *to) {
+                if by > *to || by.is_nan() {
                     *to = by;
                 }
             };

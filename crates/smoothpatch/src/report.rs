@@ -1,0 +1,108 @@
+//! Everything measured about one result, for people and for programs.
+
+use std::collections::BTreeMap;
+
+use basemesh::SurfaceTarget;
+use serde::{Deserialize, Serialize};
+
+use crate::measure::{
+    Continuity, Deviation, FaceDeviation, Interpolation, continuity, deviation, interpolation,
+};
+use crate::progress::{Clock, Progress, Stage};
+use crate::surface::G1Surface;
+
+/// The measured qualities of a surface and how it came about.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Topology and how patches meet.
+    pub continuity: Continuity,
+    /// Largest coefficient of the smoothness condition, in chord lengths.
+    pub row_residual: f64,
+    /// Distance from the surface that was to be approximated.
+    pub deviation: Deviation,
+    /// Defects at the vertices.
+    pub interpolation: Interpolation,
+    /// Edges whose curve is a fallback: their two vertices.
+    pub fallback_edges: Vec<[usize; 2]>,
+    /// Mean number of steps of the curve solver to the published tolerance.
+    pub mean_sqp_iterations: f64,
+    /// How the base mesh was made; missing if it was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base_mesh: Option<BaseMeshReport>,
+    /// Seconds by stage, wall clock.
+    pub seconds: BTreeMap<String, f64>,
+}
+
+/// How the base mesh was made.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BaseMeshReport {
+    /// Triangles of the polygonization.
+    pub triangles: usize,
+    /// Cells along the longest side of the region.
+    pub cells: usize,
+    /// Whether two resolutions agreed about Euler characteristic and number of components.
+    pub topology_confirmed: bool,
+    /// Largest angle between the normals at the ends of an edge, in degrees, after simplification.
+    pub max_turning_deg: f64,
+    /// Smallest angle of a face, in degrees, after simplification.
+    pub min_angle_deg: f64,
+    /// Faces added where the simplified mesh did not resolve the surface.
+    pub added_faces: usize,
+}
+
+/// Measures a surface against its target; adds the stage [`Stage::Measure`] to its times.
+///
+/// Returns the report and the figures of each face.
+#[must_use]
+pub fn report(
+    surface: &G1Surface,
+    target: &dyn SurfaceTarget,
+    progress: &mut dyn Progress,
+) -> (Report, basemesh::FaceMap<FaceDeviation>) {
+    let mut clock = Clock::new(progress);
+    let topology = surface.mesh.topology();
+    let nets = &surface.patches.nets;
+    let (mut report, faces) = clock.run(Stage::Measure, topology.face_count(), || {
+        let (deviation, faces) = deviation(nets, target, surface.mesh.diagonal());
+        let report = Report {
+            continuity: continuity(topology, nets),
+            row_residual: surface.max_row_residual(),
+            deviation,
+            interpolation: interpolation(surface),
+            fallback_edges: fallback_edges(surface),
+            mean_sqp_iterations: surface.curve_summary().mean_iterations,
+            base_mesh: base_mesh(surface),
+            seconds: BTreeMap::new(),
+        };
+        (report, faces)
+    });
+    report.seconds = surface
+        .times
+        .iter()
+        .chain(clock.times.iter())
+        .map(|(stage, seconds)| (stage.name().to_owned(), seconds))
+        .collect();
+    (report, faces)
+}
+
+fn fallback_edges(surface: &G1Surface) -> Vec<[usize; 2]> {
+    surface
+        .curves
+        .iter()
+        .filter(|(_, outcome)| outcome.status.is_fallback())
+        .map(|(edge, _)| surface.mesh.topology().edge_vertices(edge).map(basemesh::VertexId::index))
+        .collect()
+}
+
+fn base_mesh(surface: &G1Surface) -> Option<BaseMeshReport> {
+    let polygonized = surface.origin.polygonized?;
+    let simplified = surface.origin.simplified.as_ref()?;
+    Some(BaseMeshReport {
+        triangles: polygonized.triangles,
+        cells: polygonized.found.cells,
+        topology_confirmed: polygonized.confirmed,
+        max_turning_deg: simplified.max_turning_deg,
+        min_angle_deg: simplified.min_angle_deg,
+        added_faces: surface.origin.added_faces,
+    })
+}
