@@ -28,8 +28,8 @@ pub use maps::{EdgeMap, FaceMap, HalfedgeMap, VertexMap};
 pub use mesh::{MeshError, TriMesh};
 #[cfg(feature = "polygonize")]
 pub use polygonize::{
-    Polygonization, PolygonizeError, PolygonizeSettings, TopologyCount, cells_for_faces, polygonize,
-    polygonize_to_faces,
+    Polygonization, PolygonizeError, PolygonizeSettings, TopologyCount, cells_for_faces,
+    polygonize, polygonize_to_faces,
 };
 pub use quality::{MeshQuality, edge_turning, invalid_fans, triangle_quality};
 pub use simplify::{

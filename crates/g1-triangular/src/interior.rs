@@ -17,8 +17,8 @@ const FREE: [MultiIndex; 3] =
 const ROUNDS: usize = 2;
 /// Damping of the fit along the normals.
 const DAMPING: f64 = 1e-2;
-/// Weight of the part that is not of degree 5 against the part that is not of degree 6, squared.
-const DEGREE_FIVE: f64 = 0.1 * 0.1;
+/// Weight of the part that is not of degree 5 against the part that is not of degree 6.
+const DEGREE_FIVE: f64 = 0.1;
 
 fn free_columns() -> &'static [[f64; SAMPLES]; 3] {
     static COLUMNS: LazyLock<[[f64; SAMPLES]; 3]> = LazyLock::new(|| FREE.map(basis_column::<36>));
@@ -57,21 +57,25 @@ fn low_degree(net: &SepticTriangle) -> SepticTriangle {
     chosen
 }
 
-/// The combination of the 33 other points that gives each free point (zero weight on the free ones):
-/// `-Q_ii⁻¹ Q_ik`, `Q = R6 + 0.01 R5`, `R_d` the square of what degree `d` cannot represent.
+/// The combination of the 33 other points that gives each free point (zero weight on the free
+/// ones): the least squares solution of `(R6; 0.1 R5) b = 0`, `R_d` what degree `d` cannot
+/// represent.
 fn low_degree_weights() -> [[f64; 36]; 3] {
-    let q = remainder(6) + remainder(5) * DEGREE_FIVE;
+    let (six, five) = (remainder(6), remainder(5) * DEGREE_FIVE);
+    let row = |i: usize, j: usize| if i < 36 { six[(i, j)] } else { five[(i - 36, j)] };
     let free = FREE.map(MultiIndex::rank);
-    let inner = SMatrix::<f64, 3, 3>::from_fn(|i, j| q[(free[i], free[j])]);
-    let inverse = inner.try_inverse().expect("invariant: the free points leave a remainder");
-    let cross =
-        DMatrix::from_fn(3, 36, |i, j| if free.contains(&j) { 0.0 } else { q[(free[i], j)] });
-    let weights = DMatrix::from_fn(3, 3, |i, j| -inverse[(i, j)]) * cross;
+    let inner = DMatrix::from_fn(72, 3, |i, j| row(i, free[j])).qr();
+    let known = DMatrix::from_fn(72, 36, |i, j| if free.contains(&j) { 0.0 } else { -row(i, j) });
+    let weights = inner
+        .r()
+        .solve_upper_triangular(&(inner.q().transpose() * known))
+        .expect("invariant: the free points leave a remainder");
     std::array::from_fn(|i| std::array::from_fn(|j| weights[(i, j)]))
 }
 
-/// The quadratic form of the squared L2 distance of a degree-7 polynomial to degree `d`:
-/// `G - G E (Eᵀ G E)⁻¹ Eᵀ G`, `G` the Gram matrix of the Bernstein basis, `E` elevation from `d`.
+/// A square root of the quadratic form "squared L2 distance of a degree-7 polynomial to degree `d`":
+/// `(I - P) Lᵀ` with `L Lᵀ` the Gram matrix of the Bernstein basis and `P` the projector onto the
+/// image of elevation from `d`.
 fn remainder(d: usize) -> DMatrix<f64> {
     let high: Vec<MultiIndex> = MultiIndex::all(7).collect();
     let low: Vec<MultiIndex> = MultiIndex::all(d).collect();
@@ -88,13 +92,10 @@ fn remainder(d: usize) -> DMatrix<f64> {
         }
         binomial(m.i, s.i) * binomial(m.j, s.j) * binomial(m.k, s.k) / binomial(7, d)
     });
-    let image = &gram * &elevation;
-    let low_gram = elevation.transpose() * &image;
-    let projected = low_gram
-        .cholesky()
-        .expect("invariant: a Gram matrix is positive definite")
-        .solve(&image.transpose());
-    gram - image * projected
+    let root =
+        gram.cholesky().expect("invariant: a Gram matrix is positive definite").l().transpose();
+    let image = (&root * &elevation).qr().q();
+    &root - &image * (image.transpose() * &root)
 }
 
 /// Moves the free points along the mean normal of the samples' feet: three unknowns.

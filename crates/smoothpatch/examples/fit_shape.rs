@@ -1,9 +1,9 @@
 //! Fits a named shape and prints how good the result is:
-//! `cargo run --release --example fit_shape -- double-torus 1800`
+//! `cargo run --release --example fit_shape -- double-torus 1800 published`
 
 use smoothpatch::implicit::NamedShape;
 use smoothpatch::measure::{continuity, deviation, interpolation};
-use smoothpatch::{FieldSource, Settings, Silent, fit};
+use smoothpatch::{FieldSource, Method, Settings, Silent, fit};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -11,7 +11,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let faces = arguments.next().map_or(Ok(600), |text| text.parse())?;
     let shape = NamedShape::find(&name).ok_or("no such shape")?;
     let field = shape.field();
-    let settings = Settings::with_faces(faces);
+    let method = match arguments.next().as_deref() {
+        None | Some("refined") => Method::Refined,
+        Some("published") => Method::Published,
+        Some(other) => return Err(format!("no such method: {other}").into()),
+    };
+    let settings = Settings::with_faces(faces).with_method(method);
 
     let surface = fit(&*field, &shape.region, &settings, &mut Silent)?;
 

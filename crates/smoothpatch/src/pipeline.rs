@@ -4,8 +4,8 @@ use basemesh::{
     EdgeMap, FieldTarget, SurfaceTarget, TriMesh, VertexMap, polygonize_to_faces, simplify,
 };
 use bezier_core::SurfaceJet;
-use g1_triangular::{CurveNetwork, SmoothPatches};
-use hermite_sqp::{CurveSample, EdgeOutcome, EdgeProblem};
+use g1_triangular::{CurveNetwork, Plan, SmoothPatches};
+use hermite_sqp::{CurveFoot, CurveSample, EdgeOutcome, EdgeProblem};
 use implicit::{Aabb, ImplicitSurface};
 
 use crate::error::FitError;
@@ -116,10 +116,12 @@ fn fit_mesh(
     };
     let network = CurveNetwork::new(curves.map(|_, outcome| outcome.curve));
     let faces = mesh.topology().face_count();
-    let positional = clock.run(Stage::Fill, faces, || g1_triangular::fill(&mesh, &network, source));
+    let plan = Plan::uniform(mesh.topology(), settings.patches);
+    let positional =
+        clock.run(Stage::Fill, faces, || g1_triangular::fill(&mesh, &network, source, &plan));
     let failed_feet = positional.failed_feet;
     let SmoothPatches { nets, weights } = clock.run(Stage::Join, faces, || {
-        g1_triangular::join(&mesh, &jets, &network, positional.nets, source, &settings.patches)
+        g1_triangular::join(&mesh, &jets, &network, positional.nets, source, &plan)
     })?;
     Ok(G1Surface {
         mesh,
@@ -151,14 +153,21 @@ fn fit_curves(
     EdgeMap::try_from_fn(mesh.topology().edge_count(), |edge| {
         let [a, b] = mesh.topology().edge_vertices(edge);
         let samples = curve_samples(&jets[a], &jets[b], target, settings.curve_sections);
-        EdgeProblem::new(&jets[a], &jets[b], &samples)
-            .map(|problem| hermite_sqp::solve(&problem, &settings.curves))
-            .map_err(|reason| FitError::Edge {
-                edge: edge.index(),
-                a: a.index(),
-                b: b.index(),
-                reason,
-            })
+        let problem = EdgeProblem::new(&jets[a], &jets[b], &samples).map_err(|reason| {
+            FitError::Edge { edge: edge.index(), a: a.index(), b: b.index(), reason }
+        })?;
+        let solved = hermite_sqp::solve(&problem, &settings.curves);
+        let foot = |near| {
+            target.foot(near).map(|foot| CurveFoot { point: foot.point, normal: foot.normal })
+        };
+        let refined = hermite_sqp::refine(
+            &problem,
+            &solved.curve,
+            settings.curve_refinement,
+            &settings.curves,
+            &foot,
+        );
+        Ok(EdgeOutcome { curve: refined.curve, ..solved })
     })
 }
 

@@ -78,3 +78,12 @@ fn shape(name: &str) -> Result<&'static NamedShape, ResolveError> {
         ResolveError::UnknownShape { name: name.to_owned(), known: names.join(", ") }
     })
 }
+
+impl From<io::Method> for crate::Method {
+    fn from(method: io::Method) -> Self {
+        match method {
+            io::Method::Published => Self::Published,
+            io::Method::Refined => Self::Refined,
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! The union of the stages' settings.
 
 use basemesh::SimplifySettings;
+use hermite_sqp::CurveRefinement;
 use implicit::ProjectionSettings;
 use serde::{Deserialize, Serialize};
 
@@ -8,8 +9,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Method {
-    /// The scheme of [TK09] with its errata mended: nearest solutions.
+    /// Our objectives: full order of approximation.
     #[default]
+    Refined,
+    /// The scheme of [TK09] with its errata mended: nearest solutions.
     Published,
 }
 
@@ -24,6 +27,8 @@ pub struct Settings {
     pub curve_sections: usize,
     /// The curve of one edge.
     pub curves: hermite_sqp::Settings,
+    /// How far curves are drawn towards the surface afterwards.
+    pub curve_refinement: CurveRefinement,
     /// The patches.
     pub patches: g1_triangular::Settings,
 }
@@ -40,7 +45,7 @@ pub struct BaseMeshSettings {
 }
 
 impl Settings {
-    /// Settings for about this many patches.
+    /// Settings of the refined method for about this many patches.
     #[must_use]
     pub fn with_faces(faces: usize) -> Self {
         Self {
@@ -52,8 +57,19 @@ impl Settings {
             projection: ProjectionSettings::default(),
             curve_sections: 10,
             curves: hermite_sqp::Settings::default(),
-            patches: g1_triangular::Settings::default(),
+            curve_refinement: CurveRefinement::TangentFree,
+            patches: g1_triangular::Settings::REFINED,
         }
+    }
+
+    /// These settings with the objectives of a method.
+    #[must_use]
+    pub fn with_method(mut self, method: Method) -> Self {
+        (self.curve_refinement, self.patches) = match method {
+            Method::Refined => (CurveRefinement::TangentFree, g1_triangular::Settings::REFINED),
+            Method::Published => (CurveRefinement::None, g1_triangular::Settings::PUBLISHED),
+        };
+        self
     }
 
     /// The number of faces asked for.

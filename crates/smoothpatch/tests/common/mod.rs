@@ -5,7 +5,7 @@ use serde_json::Value;
 use smoothpatch::basemesh::TriMesh;
 use smoothpatch::basemesh::glam::DVec3;
 use smoothpatch::implicit::{ImplicitSurface, Sphere, Torus};
-use smoothpatch::{G1Surface, Settings, Silent, fit_base_mesh};
+use smoothpatch::{G1Surface, Method, Settings, Silent, fit_base_mesh};
 
 const ORACLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/oracle/tong-kim/");
 
@@ -46,7 +46,8 @@ pub fn models() -> [(&'static str, Box<dyn ImplicitSurface>, TriMesh); 2] {
 
 /// The published construction, with curves as converged as the oracle's.
 pub fn fit(field: &dyn ImplicitSurface, mesh: TriMesh) -> G1Surface {
-    let mut settings = Settings::with_faces(mesh.topology().face_count());
+    let mut settings =
+        Settings::with_faces(mesh.topology().face_count()).with_method(Method::Published);
     settings.curves.tolerance = 1e-13;
     fit_base_mesh(field, mesh, &settings, &mut Silent).unwrap()
 }
