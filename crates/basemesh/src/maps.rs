@@ -7,7 +7,7 @@ use crate::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 #[cfg(feature = "rayon")]
 fn collect<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
     use rayon::iter::{IntoParallelIterator, ParallelIterator};
-    (0..count).into_par_iter().map(|i| f(i)).collect()
+    (0..count).into_par_iter().map(&f).collect()
 }
 
 #[cfg(not(feature = "rayon"))]

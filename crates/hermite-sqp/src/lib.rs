@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+mod frame;
+mod free_tangents;
 mod kkt;
 mod outcome;
 mod problem;

@@ -7,17 +7,14 @@
 //! `θ²`, `θ` the turning of the normals along the edge, because the free parameters of a curve with
 //! given end curvatures influence its normal distance only through terms of that order.
 
-mod frame;
-mod unknowns;
-
 use bezier_core::glam::DVec3;
 use bezier_core::{QuarticCurve, Turning};
 use nalgebra::{SMatrix, SVector};
 
+use crate::frame::Frame;
+use crate::free_tangents::{self, FreeTangents};
 use crate::problem::EdgeProblem;
 use crate::settings::{CurveRefinement, Settings};
-use frame::Frame;
-use unknowns::Unknowns;
 
 /// Samples of the curve, at `j / 10`.
 const SAMPLES: usize = 9;
@@ -29,10 +26,8 @@ const TANGENTIAL: f64 = 0.005;
 const TANGENTIAL_FLOOR: f64 = 1e-4;
 /// Weight that determines a step where nothing else does (a straight edge).
 const FLOOR: f64 = 1e-9;
-/// Newton corrections back onto the curvature conditions after a step; when they end, and what a
-/// result must satisfy.
+/// Newton steps back onto the curvature conditions after a step, and what a result must satisfy.
 const CORRECTIONS: usize = 6;
-const CORRECTED: f64 = 1e-15;
 const CONDITIONS_MET: f64 = 1e-12;
 /// Longest end tangent, and largest sideways part of it as a fraction of its length.
 const MAX_LENGTH: f64 = 0.42;
@@ -84,7 +79,7 @@ pub fn refine(
     let kept = Refined { curve: *start, accepted: 0 };
     let run = Run { problem, settings, foot };
     let Some(theta) = run.turning(start) else { return kept };
-    let Some(mut state) = run.state(Unknowns::of(problem, start)) else { return kept };
+    let Some(mut state) = run.state(FreeTangents::of(problem, start)) else { return kept };
     let mut accepted = 0;
     for &(directions, rounds) in stages {
         let mut weight = TANGENTIAL * theta * theta;
@@ -104,7 +99,7 @@ pub fn refine(
 
 /// A candidate and how far it is from the surface.
 struct State {
-    x: Unknowns,
+    x: FreeTangents,
     /// Distance along the normal in chord lengths, and the normal, at each sample.
     feet: [(f64, DVec3); SAMPLES],
     square_distance: f64,
@@ -125,7 +120,7 @@ impl Run<'_> {
         Some(Turning::of(&normals)?.angle.max(MIN_TURNING))
     }
 
-    fn state(&self, x: Unknowns) -> Option<State> {
+    fn state(&self, x: FreeTangents) -> Option<State> {
         let curve = x.curve(self.problem);
         let mut feet = [(0.0, DVec3::ZERO); SAMPLES];
         let mut square_distance = 0.0;
@@ -144,16 +139,8 @@ impl Run<'_> {
         let sideways = directions == DIRECTIONS;
         let frame = Frame::new(&state.x.condition_gradients(self.problem, sideways));
         let step = self.least_squares(state, &frame, directions, tangential)?;
-        let mut x = Unknowns(state.x.0 + step);
-        for _ in 0..CORRECTIONS {
-            let defect = x.conditions(self.problem);
-            if defect.norm() < CORRECTED {
-                break;
-            }
-            let gradients = x.condition_gradients(self.problem, sideways);
-            x.0 -= Frame::new(&gradients).smallest_solution(&defect);
-        }
-        self.state(x)
+        let moved = FreeTangents(state.x.0 + step);
+        self.state(moved.towards_conditions(self.problem, sideways, CORRECTIONS))
     }
 
     /// Normal distances to zero with little tangential motion, by QR.
@@ -172,7 +159,8 @@ impl Run<'_> {
             let (u, v) = normal.any_orthonormal_pair();
             rhs[3 * j] = -distance;
             for d in 0..directions {
-                let motion = unknowns::motion(self.problem, &space.column(d).into(), parameter(j));
+                let motion =
+                    free_tangents::motion(self.problem, &space.column(d).into(), parameter(j));
                 matrix[(3 * j, d)] = motion.dot(normal);
                 matrix[(3 * j + 1, d)] = tangential * motion.dot(u);
                 matrix[(3 * j + 2, d)] = tangential * motion.dot(v);

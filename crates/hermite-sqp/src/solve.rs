@@ -11,8 +11,9 @@ use crate::{kkt, start};
 ///
 /// Starts from the unconstrained least-squares fit with zero multipliers and takes full
 /// Lagrange–Newton steps. A curve that does not converge, or whose end tangents are shorter or
-/// longer than the settings allow, is replaced by the fallback: lengths clamped, `q2` moved so that
-/// both curvature conditions still hold. The end points are exact in either case.
+/// longer than the settings allow, is replaced by the fallback: lengths clamped, then moved as
+/// little as possible so that both curvature conditions still hold. The end points are exact in
+/// either case.
 #[must_use]
 pub fn solve(problem: &EdgeProblem, settings: &Settings) -> EdgeOutcome {
     let unconstrained = start::unconstrained(problem);
@@ -26,7 +27,7 @@ pub fn solve(problem: &EdgeProblem, settings: &Settings) -> EdgeOutcome {
             status: EdgeStatus::Converged { iterations, published_iterations },
         },
         Err(reason) => EdgeOutcome {
-            curve: problem.curve(&start::fallback(problem, unconstrained, settings)),
+            curve: start::fallback(problem, unconstrained, settings),
             status: EdgeStatus::Fallback(reason),
         },
     }

@@ -1,7 +1,9 @@
 //! Where the iteration starts, and what is used where it does not arrive.
 
+use bezier_core::QuarticCurve;
 use nalgebra::{SMatrix, SVector, Vector3};
 
+use crate::free_tangents::FreeTangents;
 use crate::problem::{EdgeProblem, Unknowns};
 use crate::settings::Settings;
 
@@ -17,9 +19,36 @@ pub(crate) fn unconstrained(problem: &EdgeProblem) -> Option<Unknowns> {
     x.iter().all(|v| v.is_finite()).then_some(x)
 }
 
-/// End lengths clamped to the accepted range, and `q2` moved from the unconstrained fit by the
-/// smallest vector that meets both curvature conditions for these lengths.
+/// Newton steps that make the conditions hold exactly, and how far they may take the end tangents
+/// out of the accepted range (a factor) and `q2` from its place (in chord lengths).
+const RESTORING_STEPS: usize = 20;
+const RESTORED: f64 = 1e-13;
+const STRETCH: f64 = 2.0;
+const MAX_SHIFT: f64 = 0.25;
+
+/// A usable curve where the iteration fails: [`clamped`] lengths, then all of the curve, its end
+/// tangents included, moved as little as possible so that both curvature conditions hold exactly.
+/// Where that would distort the curve, as with end data that contradict each other, it is left out
+/// and the surface will not be exactly smooth along the edge.
 pub(crate) fn fallback(
+    problem: &EdgeProblem,
+    unconstrained: Option<Unknowns>,
+    settings: &Settings,
+) -> QuarticCurve {
+    let curve = problem.curve(&clamped(problem, unconstrained, settings));
+    let before = FreeTangents::of(problem, &curve);
+    let after = before.towards_conditions(problem, true, RESTORING_STEPS);
+    let range = settings.min_length / STRETCH..=settings.max_length * STRETCH;
+    let sensible = after.conditions(problem).norm() <= RESTORED
+        && [0, 1].iter().all(|&end| range.contains(&after.end_tangent(end).0))
+        && (after.0 - before.0).norm() <= MAX_SHIFT;
+    if sensible { after.curve(problem) } else { curve }
+}
+
+/// End lengths clamped to the accepted range, and `q2` moved from the unconstrained fit by the
+/// smallest vector that meets both curvature conditions for these lengths, as far as the normals
+/// differ.
+fn clamped(
     problem: &EdgeProblem,
     unconstrained: Option<Unknowns>,
     settings: &Settings,

@@ -1,5 +1,6 @@
 //! Fits a named shape and prints how good the result is:
 //! `cargo run --release --example fit_shape -- double-torus 1800 published`
+#![allow(clippy::print_stdout, reason = "an example")]
 
 use smoothpatch::implicit::NamedShape;
 use smoothpatch::measure::{continuity, deviation, interpolation};

@@ -3,6 +3,8 @@
 pub mod measure;
 
 mod error;
+mod folds;
+mod objectives;
 mod pipeline;
 mod progress;
 mod region;
@@ -22,6 +24,7 @@ pub use hermite_sqp;
 pub use implicit;
 #[cfg(feature = "io")]
 pub use io;
+pub use objectives::Retreat;
 pub use pipeline::{fit, fit_base_mesh, fit_source};
 pub use progress::{Progress, Silent, Stage, StageTimes};
 pub use region::find_region;

@@ -1,14 +1,17 @@
 //! The story: from an implicit function to a smooth surface, one stage after the other.
 
 use basemesh::{
-    EdgeMap, FieldTarget, SurfaceTarget, TriMesh, VertexMap, polygonize_to_faces, simplify,
+    EdgeId, EdgeMap, FaceMap, FieldTarget, SurfaceTarget, TriMesh, VertexMap, polygonize_to_faces,
+    simplify,
 };
 use bezier_core::SurfaceJet;
-use g1_triangular::{CurveNetwork, Plan, SmoothPatches};
-use hermite_sqp::{CurveFoot, CurveSample, EdgeOutcome, EdgeProblem};
+use g1_triangular::{CurveNetwork, SmoothPatches};
+use hermite_sqp::{CurveFoot, CurveRefinement, CurveSample, EdgeOutcome, EdgeProblem};
 use implicit::{Aabb, ImplicitSurface};
 
 use crate::error::FitError;
+use crate::folds::find_folds;
+use crate::objectives::Objectives;
 use crate::progress::{Clock, Progress, Stage, StageTimes};
 use crate::repair::{edges_to_split, refine};
 use crate::settings::Settings;
@@ -114,25 +117,69 @@ fn fit_mesh(
         mesh =
             clock.run(Stage::Simplify, unresolved.len(), || refine(&mesh, source, &unresolved))?;
     };
-    let network = CurveNetwork::new(curves.map(|_, outcome| outcome.curve));
-    let faces = mesh.topology().face_count();
-    let plan = Plan::uniform(mesh.topology(), settings.patches);
-    let positional =
-        clock.run(Stage::Fill, faces, || g1_triangular::fill(&mesh, &network, source, &plan));
-    let failed_feet = positional.failed_feet;
-    let SmoothPatches { nets, weights } = clock.run(Stage::Join, faces, || {
-        g1_triangular::join(&mesh, &jets, &network, positional.nets, source, &plan)
-    })?;
+    let mut objectives = Objectives::uniform(mesh.topology(), settings);
+    let mut fitted = fit_patches(&mesh, &jets, curves, source, &objectives, clock)?;
+    // a patch that folds over is made again, step by step closer to the published method
+    while retreat(&mesh, &jets, &fitted, source, &mut objectives) {
+        let curves = clock.run(Stage::Curves, 0, || {
+            refit_curves(&mesh, &jets, fitted.curves, source, settings, &objectives)
+        })?;
+        fitted = fit_patches(&mesh, &jets, curves, source, &objectives, clock)?;
+    }
+    let Fitted { curves, network, failed_feet, patches } = fitted;
     Ok(G1Surface {
         mesh,
         jets,
         curves,
         network,
         failed_feet,
-        patches: SmoothPatches { nets, weights },
+        patches,
+        retreats: objectives.retreats,
         origin: BaseMeshOrigin::default(),
         times: StageTimes::default(),
     })
+}
+
+/// A curve network and its smooth patches.
+struct Fitted {
+    curves: EdgeMap<EdgeOutcome>,
+    network: CurveNetwork,
+    failed_feet: FaceMap<usize>,
+    patches: SmoothPatches,
+}
+
+/// Patches, then smooth patches, over given curves.
+fn fit_patches(
+    mesh: &TriMesh,
+    jets: &VertexMap<SurfaceJet>,
+    curves: EdgeMap<EdgeOutcome>,
+    source: &dyn FitSource,
+    objectives: &Objectives,
+    clock: &mut Clock<'_>,
+) -> Result<Fitted, FitError> {
+    let network = CurveNetwork::new(curves.map(|_, outcome| outcome.curve));
+    let faces = mesh.topology().face_count();
+    let plan = &objectives.patches;
+    let positional =
+        clock.run(Stage::Fill, faces, || g1_triangular::fill(mesh, &network, source, plan));
+    let failed_feet = positional.failed_feet;
+    let patches = clock.run(Stage::Join, faces, || {
+        g1_triangular::join(mesh, jets, &network, positional.nets, source, plan)
+    })?;
+    Ok(Fitted { curves, network, failed_feet, patches })
+}
+
+/// Takes the objectives of folded patches back; `false` if no patch folds that could be helped.
+fn retreat(
+    mesh: &TriMesh,
+    jets: &VertexMap<SurfaceJet>,
+    fitted: &Fitted,
+    source: &dyn FitSource,
+    objectives: &mut Objectives,
+) -> bool {
+    let folds = find_folds(mesh, jets, &fitted.patches.nets, source);
+    // all of them, whichever succeeds first
+    folds.into_iter().filter(|&face| objectives.retreat(mesh.topology(), face)).count() > 0
 }
 
 /// Position, normal and second fundamental form at every vertex.
@@ -151,24 +198,47 @@ fn fit_curves(
     settings: &Settings,
 ) -> Result<EdgeMap<EdgeOutcome>, FitError> {
     EdgeMap::try_from_fn(mesh.topology().edge_count(), |edge| {
-        let [a, b] = mesh.topology().edge_vertices(edge);
-        let samples = curve_samples(&jets[a], &jets[b], target, settings.curve_sections);
-        let problem = EdgeProblem::new(&jets[a], &jets[b], &samples).map_err(|reason| {
-            FitError::Edge { edge: edge.index(), a: a.index(), b: b.index(), reason }
-        })?;
-        let solved = hermite_sqp::solve(&problem, &settings.curves);
-        let foot = |near| {
-            target.foot(near).map(|foot| CurveFoot { point: foot.point, normal: foot.normal })
-        };
-        let refined = hermite_sqp::refine(
-            &problem,
-            &solved.curve,
-            settings.curve_refinement,
-            &settings.curves,
-            &foot,
-        );
-        Ok(EdgeOutcome { curve: refined.curve, ..solved })
+        fit_curve(mesh, jets, target, settings, edge, settings.curve_refinement)
     })
+}
+
+/// The curves with those made anew whose objectives are not the general ones any more.
+fn refit_curves(
+    mesh: &TriMesh,
+    jets: &VertexMap<SurfaceJet>,
+    curves: EdgeMap<EdgeOutcome>,
+    target: &dyn FitSource,
+    settings: &Settings,
+    objectives: &Objectives,
+) -> Result<EdgeMap<EdgeOutcome>, FitError> {
+    EdgeMap::try_from_fn(curves.len(), |edge| {
+        let refinement = objectives.curves[edge];
+        if refinement == settings.curve_refinement {
+            Ok(curves[edge])
+        } else {
+            fit_curve(mesh, jets, target, settings, edge, refinement)
+        }
+    })
+}
+
+fn fit_curve(
+    mesh: &TriMesh,
+    jets: &VertexMap<SurfaceJet>,
+    target: &dyn FitSource,
+    settings: &Settings,
+    edge: EdgeId,
+    refinement: CurveRefinement,
+) -> Result<EdgeOutcome, FitError> {
+    let [a, b] = mesh.topology().edge_vertices(edge);
+    let samples = curve_samples(&jets[a], &jets[b], target, settings.curve_sections);
+    let problem = EdgeProblem::new(&jets[a], &jets[b], &samples).map_err(|reason| {
+        FitError::Edge { edge: edge.index(), a: a.index(), b: b.index(), reason }
+    })?;
+    let solved = hermite_sqp::solve(&problem, &settings.curves);
+    let foot =
+        |near| target.foot(near).map(|foot| CurveFoot { point: foot.point, normal: foot.normal });
+    let refined = hermite_sqp::refine(&problem, &solved.curve, refinement, &settings.curves, &foot);
+    Ok(EdgeOutcome { curve: refined.curve, ..solved })
 }
 
 /// Points of the surface near equidistant points of the chord; those that have no foot are left

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::measure::{
     Continuity, Deviation, FaceDeviation, Interpolation, continuity, deviation, interpolation,
 };
+use crate::objectives::Retreat;
 use crate::progress::{Clock, Progress, Stage};
 use crate::surface::G1Surface;
 
@@ -24,6 +25,8 @@ pub struct Report {
     pub interpolation: Interpolation,
     /// Edges whose curve is a fallback: their two vertices.
     pub fallback_edges: Vec<[usize; 2]>,
+    /// Patches that were taken back to the published objectives because they folded over.
+    pub retreats: BTreeMap<usize, Retreat>,
     /// Mean number of steps of the curve solver to the published tolerance.
     pub mean_sqp_iterations: f64,
     /// How the base mesh was made; missing if it was given.
@@ -70,6 +73,7 @@ pub fn report(
             deviation,
             interpolation: interpolation(surface),
             fallback_edges: fallback_edges(surface),
+            retreats: retreats(surface),
             mean_sqp_iterations: surface.curve_summary().mean_iterations,
             base_mesh: base_mesh(surface),
             seconds: BTreeMap::new(),
@@ -91,6 +95,14 @@ fn fallback_edges(surface: &G1Surface) -> Vec<[usize; 2]> {
         .iter()
         .filter(|(_, outcome)| outcome.status.is_fallback())
         .map(|(edge, _)| surface.mesh.topology().edge_vertices(edge).map(basemesh::VertexId::index))
+        .collect()
+}
+
+fn retreats(surface: &G1Surface) -> BTreeMap<usize, Retreat> {
+    surface
+        .retreats
+        .iter()
+        .filter_map(|(face, retreat)| retreat.map(|retreat| (face.index(), retreat)))
         .collect()
 }
 

@@ -7,6 +7,7 @@ use bezier_core::SurfaceJet;
 use g1_triangular::{CurveNetwork, SmoothPatches};
 use hermite_sqp::{EdgeOutcome, EdgeStatus};
 
+use crate::objectives::Retreat;
 use crate::progress::StageTimes;
 
 /// A G1 spline surface with everything that it was made from.
@@ -24,6 +25,8 @@ pub struct G1Surface {
     pub failed_feet: FaceMap<usize>,
     /// The patches and their weight functions.
     pub patches: SmoothPatches,
+    /// Patches that were taken back to the published objectives because they folded over.
+    pub retreats: FaceMap<Option<Retreat>>,
     /// Where the base mesh came from.
     pub origin: BaseMeshOrigin,
     /// Seconds per stage.

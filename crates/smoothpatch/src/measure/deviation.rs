@@ -91,7 +91,7 @@ fn face_deviation(
         let weight = normal.length();
         result.max = result.max.max(distance);
         result.max_normal = result.max_normal.max(angle);
-        result.folded |= !(along > 0.0);
+        result.folded |= along.is_nan() || along <= 0.0;
         result.area += weight;
         result.square_distance += weight * distance * distance;
         result.square_angle += weight * angle * angle;
@@ -139,7 +139,7 @@ pub fn folded_patches(nets: &FaceMap<SepticTriangle>) -> Vec<FaceId> {
         let normals: Vec<DVec3> =
             parameters.iter().map(|&at| net.point_and_area_normal(at).1).collect();
         let mean: DVec3 = normals.iter().sum();
-        normals.iter().any(|normal| !(normal.dot(mean) > 0.0))
+        !normals.iter().all(|normal| normal.dot(mean) > 0.0)
     });
     folded.iter().filter(|(_, folded)| **folded).map(|(face, _)| face).collect()
 }

@@ -4,12 +4,16 @@ use bezier_core::glam::DVec3;
 use bezier_core::{QuarticCurve, bernstein};
 use nalgebra::{SMatrix, SVector};
 
+use crate::frame::Frame;
 use crate::problem::{EdgeProblem, End};
+
+/// Where Newton steps towards the conditions end, in chord lengths.
+const CONDITIONS_HOLD: f64 = 1e-15;
 
 /// `(a0, a1, q2, b0, b1)` in chord lengths: `q1 = q0 + a0 t0 + b0 s0`, `q3 = q4 + a1 t1 + b1 s1`, with
 /// `t` the end tangents of the problem and `s = N × t`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unknowns(pub(super) SVector<f64, 7>);
+pub(crate) struct FreeTangents(pub(crate) SVector<f64, 7>);
 
 fn sideways(end: &End) -> DVec3 {
     end.normal.cross(end.tangent)
@@ -19,9 +23,9 @@ fn middle(x: &SVector<f64, 7>) -> DVec3 {
     DVec3::new(x[2], x[3], x[4])
 }
 
-impl Unknowns {
+impl FreeTangents {
     /// The unknowns of a curve between the end points of the problem.
-    pub(super) fn of(problem: &EdgeProblem, curve: &QuarticCurve) -> Self {
+    pub(crate) fn of(problem: &EdgeProblem, curve: &QuarticCurve) -> Self {
         let q = curve.points;
         let [start, end] = &problem.ends;
         let first = (q[1] - q[0]) / problem.chord;
@@ -39,7 +43,7 @@ impl Unknowns {
     }
 
     /// Length along the chord's tangent direction and sideways part of an end tangent.
-    pub(super) fn end_tangent(&self, end: usize) -> (f64, f64) {
+    pub(crate) fn end_tangent(&self, end: usize) -> (f64, f64) {
         (self.0[end], self.0[5 + end])
     }
 
@@ -50,12 +54,12 @@ impl Unknowns {
     }
 
     /// The curve in world coordinates.
-    pub(super) fn curve(&self, problem: &EdgeProblem) -> QuarticCurve {
+    pub(crate) fn curve(&self, problem: &EdgeProblem) -> QuarticCurve {
         problem.curve_with(self.tangent(problem, 0), middle(&self.0), self.tangent(problem, 1))
     }
 
     /// The curvature conditions `4 II(q1 - q0, q1 - q0) - 3 (q2 - q0)·N`, and the same at the end.
-    pub(super) fn conditions(&self, problem: &EdgeProblem) -> SVector<f64, 2> {
+    pub(crate) fn conditions(&self, problem: &EdgeProblem) -> SVector<f64, 2> {
         SVector::from_fn(|i, _| {
             let end = &problem.ends[i];
             let tangent = self.tangent(problem, i);
@@ -65,7 +69,7 @@ impl Unknowns {
     }
 
     /// Their gradients, one column each; without `sideways`, those of `b0` and `b1` are zero.
-    pub(super) fn condition_gradients(
+    pub(crate) fn condition_gradients(
         &self,
         problem: &EdgeProblem,
         with_sideways: bool,
@@ -85,9 +89,30 @@ impl Unknowns {
     }
 }
 
+impl FreeTangents {
+    /// Newton steps of smallest norm towards the curvature conditions, until they hold to round-off
+    /// or `steps` have been taken.
+    pub(crate) fn towards_conditions(
+        mut self,
+        problem: &EdgeProblem,
+        with_sideways: bool,
+        steps: usize,
+    ) -> Self {
+        for _ in 0..steps {
+            let defect = self.conditions(problem);
+            if defect.norm() < CONDITIONS_HOLD {
+                break;
+            }
+            let gradients = self.condition_gradients(problem, with_sideways);
+            self.0 -= Frame::new(&gradients).smallest_solution(&defect);
+        }
+        self
+    }
+}
+
 /// Motion of the curve point at `t`, in chord lengths, when the unknowns move by `direction`.
-pub(super) fn motion(problem: &EdgeProblem, direction: &SVector<f64, 7>, t: f64) -> DVec3 {
+pub(crate) fn motion(problem: &EdgeProblem, direction: &SVector<f64, 7>, t: f64) -> DVec3 {
     let [_, b1, b2, b3, _] = bernstein::<5>(t);
-    let step = Unknowns(*direction);
+    let step = FreeTangents(*direction);
     step.tangent(problem, 0) * b1 + middle(direction) * b2 + step.tangent(problem, 1) * b3
 }

@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, SVector};
 const DEPENDENT: f64 = 1e-12;
 
 /// A QR decomposition of the gradients by two Householder reflections.
-pub(super) struct Frame {
+pub(crate) struct Frame {
     /// The orthonormal frame, one vector a column.
     q: SMatrix<f64, 7, 7>,
     /// The upper triangular factor.
@@ -18,7 +18,7 @@ impl Frame {
     /// The frame of two gradients.
     ///
     /// A component in which both gradients vanish stays a frame vector of its own, in its place.
-    pub(super) fn new(gradients: &SMatrix<f64, 7, 2>) -> Self {
+    pub(crate) fn new(gradients: &SMatrix<f64, 7, 2>) -> Self {
         let mut work = *gradients;
         let mut q = SMatrix::<f64, 7, 7>::identity();
         for pivot in 0..2 {
@@ -37,13 +37,13 @@ impl Frame {
     }
 
     /// The directions that keep both conditions, orthonormal, one a column.
-    pub(super) fn null_space(&self) -> SMatrix<f64, 7, 5> {
+    pub(crate) fn null_space(&self) -> SMatrix<f64, 7, 5> {
         self.q.fixed_columns::<5>(2).into_owned()
     }
 
     /// The smallest vector that changes the conditions by `defect`; where they depend on each
     /// other, the smallest that meets the first.
-    pub(super) fn smallest_solution(&self, defect: &SVector<f64, 2>) -> SVector<f64, 7> {
+    pub(crate) fn smallest_solution(&self, defect: &SVector<f64, 2>) -> SVector<f64, 7> {
         let [[r00, r01], [_, r11]] = self.r;
         if r00.abs() <= f64::MIN_POSITIVE {
             return SVector::zeros();

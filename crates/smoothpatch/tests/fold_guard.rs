@@ -1,0 +1,81 @@
+//! On bad meshes the refined method never folds more patches than the published one, stays exactly
+//! smooth, and says which patches it took back.
+
+use smoothpatch::basemesh::{
+    EdgeId, FieldTarget, PolygonizeSettings, SimplifySettings, TriMesh, polygonize, simplify,
+};
+use smoothpatch::implicit::{ImplicitSurface, NamedShape};
+use smoothpatch::measure::deviation;
+use smoothpatch::{FieldSource, G1Surface, Method, Settings, Silent, fit_base_mesh};
+
+fn fit(field: &dyn ImplicitSurface, mesh: &TriMesh, method: Method) -> (G1Surface, usize) {
+    let settings = Settings::with_faces(0).with_method(method);
+    let surface = fit_base_mesh(field, mesh.clone(), &settings, &mut Silent).unwrap();
+    let diagonal = mesh.diagonal();
+    let source = FieldSource::new(field, diagonal, settings.projection);
+    let folds = deviation(&surface.patches.nets, &source, diagonal).0.folded.len();
+    (surface, folds)
+}
+
+/// Fits both ways, compares, and returns how many patches were taken back.
+fn compare(name: &str, field: &dyn ImplicitSurface, mesh: &TriMesh) -> usize {
+    let (published, published_folds) = fit(field, mesh, Method::Published);
+    let (refined, refined_folds) = fit(field, mesh, Method::Refined);
+    let taken_back = refined.retreats.as_slice().iter().flatten().count();
+    println!(
+        "{name}: {} faces, folds {published_folds} published, {refined_folds} refined, \
+         {taken_back} taken back",
+        mesh.topology().face_count()
+    );
+    assert!(refined_folds <= published_folds, "{name}: {refined_folds} > {published_folds}");
+    assert!(published.retreats.as_slice().iter().all(Option::is_none), "{name}");
+    // end data of an edge that needs the fallback may contradict each other
+    let smooth = |edge: EdgeId| {
+        refined.patches.edge_residual(mesh, &refined.network, edge).unwrap() <= 1e-12
+    };
+    for edge in mesh.topology().edges() {
+        let given_up = refined.curves[edge].status.is_fallback();
+        assert!(given_up || smooth(edge), "{name}: {edge:?} is not smooth");
+    }
+    taken_back
+}
+
+/// Marched meshes as they come: slivers, and vertices beside the surface.
+#[test]
+fn marched_meshes() {
+    for (name, cells) in [("double-torus", 24), ("deccube", 50), ("chair", 40)] {
+        let shape = NamedShape::find(name).unwrap();
+        let field = shape.field();
+        let settings = PolygonizeSettings::with_cells(cells);
+        let mesh = polygonize(&*field, &shape.region, &settings).unwrap();
+        compare(name, &*field, &mesh);
+    }
+}
+
+/// Decimation by quadric error alone, without any guard or improvement.
+#[test]
+fn unguarded_decimation() {
+    let mut taken_back = 0;
+    for (name, faces) in
+        [("double-torus", 900), ("mcmullen", 700), ("deccube", 3000), ("chair", 2000)]
+    {
+        let shape = NamedShape::find(name).unwrap();
+        let field = shape.field();
+        let dense =
+            polygonize(&*field, &shape.region, &PolygonizeSettings::with_cells(64)).unwrap();
+        let target =
+            FieldTarget::new(&*field, dense.diagonal(), Settings::with_faces(0).projection);
+        let settings = SimplifySettings {
+            plain_factor: 1,
+            relaxation_iterations: 0,
+            exchange_rounds: 0,
+            rounds: 0,
+            max_turning_deg: 180.0,
+            min_quality: 0.0,
+            ..SimplifySettings::to_faces(faces)
+        };
+        let mesh = simplify(dense, &target, &settings).unwrap().mesh;
+        taken_back += compare(name, &*field, &mesh);
+    }
+    assert!(taken_back > 0, "no mesh was bad enough to try the guard");
+}
