@@ -1,10 +1,10 @@
 //! Improvement of a base mesh without changing its number of vertices.
 
 pub(crate) mod edit_mesh;
-mod flip;
+pub(crate) mod flip;
 pub(crate) mod guard;
 mod settings;
-mod sliver;
+pub(crate) mod sliver;
 mod smooth;
 mod split;
 pub(crate) mod surface_mesh;

@@ -11,6 +11,7 @@ mod mesh;
 #[cfg(feature = "polygonize")]
 mod polygonize;
 mod quality;
+mod remesh;
 mod simplify;
 mod target;
 mod topology;
@@ -32,6 +33,7 @@ pub use polygonize::{
     polygonize, polygonize_to_faces,
 };
 pub use quality::{MeshQuality, edge_turning, invalid_fans, triangle_quality};
+pub use remesh::{RemeshError, RemeshSettings, remesh};
 pub use simplify::{
     Refusals, Relaxation, Simplified, SimplifyError, SimplifyReport, SimplifySettings, simplify,
 };

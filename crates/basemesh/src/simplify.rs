@@ -12,6 +12,7 @@ mod settings;
 
 use glam::DVec3;
 
+pub(crate) use guarded::check_collapse;
 pub use report::{Refusals, Relaxation, SimplifyError, SimplifyReport};
 pub use settings::SimplifySettings;
 

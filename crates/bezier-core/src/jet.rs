@@ -127,6 +127,16 @@ impl SurfaceJet {
         self.second_form(tangent, tangent)
     }
 
+    /// The smallest and the largest normal curvature; unit: 1 / length.
+    #[must_use]
+    pub fn principal_curvatures(&self) -> [f64; 2] {
+        let (u, v) = self.normal.any_orthonormal_pair();
+        let [uu, uv, vv] = [(u, u), (u, v), (v, v)].map(|(a, b)| self.second_form(a, b));
+        let mean = 0.5 * (uu + vv);
+        let half_difference = (0.5 * (uu - vv)).hypot(uv);
+        [mean - half_difference, mean + half_difference]
+    }
+
     /// The part of `v` that is tangent to the surface.
     #[inline]
     #[must_use]

@@ -1,7 +1,7 @@
 //! Why there is no surface.
 
 use basemesh::glam::DVec3;
-use basemesh::{PolygonizeError, SimplifyError, SplitError};
+use basemesh::{PolygonizeError, RemeshError, SimplifyError, SplitError};
 use g1_triangular::JoinError;
 use hermite_sqp::EdgeProblemError;
 use thiserror::Error;
@@ -16,6 +16,9 @@ pub enum FitError {
     /// The base mesh could not be made.
     #[error(transparent)]
     Simplify(#[from] SimplifyError),
+    /// The base mesh could not be adapted.
+    #[error(transparent)]
+    Remesh(#[from] RemeshError),
     /// The base mesh could not be refined.
     #[error(transparent)]
     Refine(#[from] SplitError),

@@ -2,6 +2,7 @@
 
 pub mod measure;
 
+mod adapt;
 mod error;
 mod folds;
 mod objectives;
@@ -16,6 +17,7 @@ mod settings;
 mod source;
 mod surface;
 
+pub use adapt::{Adaptation, Distance, Tolerance, fit_to_tolerance};
 pub use basemesh;
 pub use bezier_core;
 pub use error::FitError;

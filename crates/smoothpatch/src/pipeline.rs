@@ -54,6 +54,7 @@ pub fn fit(
         polygonized: Some(polygonized),
         simplified: Some(base.report),
         added_faces,
+        adaptation: None,
     };
     surface.times = clock.times;
     Ok(surface)
@@ -96,7 +97,7 @@ pub fn fit_source(
 
 /// Curves, then patches, then smooth patches; with local refinement of the mesh where its curves
 /// show that it does not resolve the surface.
-fn fit_mesh(
+pub(crate) fn fit_mesh(
     mut mesh: TriMesh,
     source: &dyn FitSource,
     settings: &Settings,

@@ -7,6 +7,7 @@ use bezier_core::SurfaceJet;
 use g1_triangular::{CurveNetwork, SmoothPatches};
 use hermite_sqp::{EdgeOutcome, EdgeStatus};
 
+use crate::adapt::Adaptation;
 use crate::objectives::Retreat;
 use crate::progress::StageTimes;
 
@@ -42,6 +43,8 @@ pub struct BaseMeshOrigin {
     pub simplified: Option<SimplifyReport>,
     /// Faces added where the decimated mesh did not resolve the surface.
     pub added_faces: usize,
+    /// How an accuracy was reached, if one was asked for.
+    pub adaptation: Option<Adaptation>,
 }
 
 /// The topology of a surface as polygonization saw it.

@@ -1,3 +1,5 @@
-//! testkit
+//! What several test suites of the workspace share: conformance checks, fields and base meshes.
 
 pub mod conformance;
+pub mod fields;
+pub mod meshes;

@@ -82,7 +82,7 @@ fn worst_quality(surface: &SurfaceMesh<'_>, v: VertexId, p: DVec3) -> f64 {
 }
 
 /// Tests all faces and edges of a vertex moved to `foot`.
-pub(super) fn check_move(
+pub(crate) fn check_move(
     surface: &SurfaceMesh<'_>,
     guard: &Guard,
     v: VertexId,

@@ -3,7 +3,9 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::merge::{Merge, merge};
+use glam::DVec3;
+
+use super::merge::merge;
 use super::quadric::Quadric;
 use super::report::Refusals;
 use crate::ids::{HalfedgeId, VertexId};
@@ -29,7 +31,7 @@ pub(super) fn collapse_guarded(
     while surface.mesh.face_count() > faces {
         let Some(h) = queue.pop(surface) else { return };
         let proposal = merge(&surface.mesh, quadrics, h);
-        match check_collapse(surface, guard, h, &proposal, &mut marks) {
+        match check_collapse(surface, guard, h, proposal.position, &mut marks) {
             Ok(foot) => {
                 let v = surface.mesh.origin(h);
                 queue.forget(surface.mesh.target(h), v);
@@ -46,12 +48,12 @@ pub(super) fn collapse_guarded(
     }
 }
 
-/// The surface point for the merged vertex, if the collapse passes all tests.
-fn check_collapse(
+/// The surface point near `place` for the merged vertex, if the collapse passes all tests.
+pub(crate) fn check_collapse(
     surface: &SurfaceMesh<'_>,
     guard: &Guard,
     h: HalfedgeId,
-    proposal: &Merge,
+    place: DVec3,
     marks: &mut RingMarks,
 ) -> Result<Foot, Refusal> {
     let mesh = &surface.mesh;
@@ -64,7 +66,7 @@ fn check_collapse(
         guard.check_valence(mesh.valence(mesh.apex(side)) - 1)?;
     }
     let reach = mesh.longest_edge(a).max(mesh.longest_edge(b));
-    let foot = surface.foot(proposal.position, reach).ok_or(Refusal::Foot)?;
+    let foot = surface.foot(place, reach).ok_or(Refusal::Foot)?;
     for side in [h, mesh.twin(h)] {
         check_ring(surface, guard, side, &foot)?;
     }

@@ -7,6 +7,12 @@ use serde::{Deserialize, Serialize};
 
 /// Divisions of the barycentric grid on which every patch is compared: 153 points.
 pub const GRID: usize = 16;
+/// Divisions of the finest grid that is tried.
+const FINEST_GRID: usize = 256;
+/// The largest values count as settled when twice as many divisions raise them by no more than this.
+const SETTLED: f64 = 1.05;
+/// Patches above this part of the largest value are looked at again on the finer grid.
+const CANDIDATES: f64 = 0.7;
 
 /// Deviation of a whole surface from its target.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,6 +33,8 @@ pub struct Deviation {
     pub folded: Vec<usize>,
     /// Samples that could not be projected onto the target; they count as infinitely far.
     pub failed_samples: usize,
+    /// Divisions of the finest grid on which the worst patches were compared.
+    pub grid: usize,
 }
 
 /// Deviation of one patch.
@@ -47,18 +55,73 @@ pub struct FaceDeviation {
 /// Compares every patch with `target` on a grid of 153 points; `diagonal` is what the distances are
 /// stated relative to.
 ///
-/// The distance is that to the foot of the target, which for small deviations is the closest point
-/// to second order. Returns the summary and the figures of each face.
+/// The patches with the largest values are compared again on grids with twice as many divisions,
+/// until the largest distance and the largest angle grow by less than 5 %. The distance is that to
+/// the foot of the target, which for small deviations is the closest point to second order. Returns
+/// the summary and the figures of each face.
 #[must_use]
 pub fn deviation(
     nets: &FaceMap<SepticTriangle>,
     target: &dyn SurfaceTarget,
     diagonal: f64,
 ) -> (Deviation, FaceMap<FaceDeviation>) {
-    let parameters: Vec<Barycentric> = Barycentric::lattice(GRID).collect();
-    let faces =
-        FaceMap::from_fn(nets.len(), |face| face_deviation(&nets[face], target, &parameters));
-    (summarise(&faces, diagonal), faces)
+    let coarse = lattice(GRID);
+    let mut faces =
+        FaceMap::from_fn(nets.len(), |face| face_deviation(&nets[face], target, &coarse));
+    let grid = settle(&mut faces, nets, target);
+    (summarise(&faces, diagonal, grid), faces)
+}
+
+fn lattice(divisions: usize) -> Vec<Barycentric> {
+    Barycentric::lattice(divisions).collect()
+}
+
+/// Doubles the divisions for the worst patches until the largest values settle; returns the last
+/// number of divisions.
+fn settle(
+    faces: &mut FaceMap<FaceDeviation>,
+    nets: &FaceMap<SepticTriangle>,
+    target: &dyn SurfaceTarget,
+) -> usize {
+    let mut grid = GRID;
+    while grid < FINEST_GRID {
+        grid *= 2;
+        let finer = lattice(grid);
+        let before = largest(faces);
+        *faces = faces.map(|face, coarse| {
+            if coarse.max < CANDIDATES * before.0 && coarse.max_normal < CANDIDATES * before.1 {
+                return *coarse;
+            }
+            coarse.refined_by(&face_deviation(&nets[face], target, &finer))
+        });
+        let after = largest(faces);
+        if after.0 <= SETTLED * before.0 && after.1 <= SETTLED * before.1 {
+            break;
+        }
+    }
+    grid
+}
+
+/// Largest distance and largest normal angle.
+fn largest(faces: &FaceMap<FaceDeviation>) -> (f64, f64) {
+    let all = faces.as_slice();
+    (
+        all.iter().map(|face| face.max).fold(0.0, f64::max),
+        all.iter().map(|face| face.max_normal).fold(0.0, f64::max),
+    )
+}
+
+impl FaceDeviation {
+    /// These figures with the extremes of a finer grid; the means stay.
+    fn refined_by(&self, finer: &Self) -> Self {
+        Self {
+            max: self.max.max(finer.max),
+            max_normal: self.max_normal.max(finer.max_normal),
+            folded: self.folded || finer.folded,
+            failed: self.failed.max(finer.failed),
+            ..*self
+        }
+    }
 }
 
 fn face_deviation(
@@ -99,7 +162,7 @@ fn face_deviation(
     result
 }
 
-fn summarise(faces: &FaceMap<FaceDeviation>, diagonal: f64) -> Deviation {
+fn summarise(faces: &FaceMap<FaceDeviation>, diagonal: f64, grid: usize) -> Deviation {
     let (mut area, mut distance, mut angle) = (0.0, 0.0, 0.0);
     let mut summary = Deviation {
         diagonal,
@@ -110,6 +173,7 @@ fn summarise(faces: &FaceMap<FaceDeviation>, diagonal: f64) -> Deviation {
         worst_face: 0,
         folded: Vec::new(),
         failed_samples: 0,
+        grid,
     };
     for (face, measure) in faces.iter() {
         if measure.max / diagonal > summary.max {

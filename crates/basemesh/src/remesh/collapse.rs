@@ -1,0 +1,79 @@
+//! Short edges are collapsed.
+
+use glam::DVec3;
+
+use super::{Remesh, RemeshSettings};
+use crate::ids::{HalfedgeId, VertexId};
+use crate::improve::edit_mesh::RingMarks;
+use crate::improve::guard::Guard;
+use crate::simplify::check_collapse;
+use crate::target::Foot;
+
+impl Remesh<'_> {
+    /// Collapses edges that are shorter than wanted, the shortest first (ties by half-edge id),
+    /// where the limits allow it and no edge gets longer than those that are split.
+    pub(super) fn collapse_short(&mut self, settings: &RemeshSettings, guard: &Guard) {
+        let mut edges: Vec<(f64, HalfedgeId)> = self
+            .surface
+            .mesh
+            .edges()
+            .filter_map(|h| Some((self.excess(h)?, h)))
+            .filter(|&(excess, _)| excess < settings.shortest)
+            .collect();
+        edges.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        let mut marks = RingMarks::default();
+        for (_, h) in edges {
+            let alive = self.surface.mesh.is_live_halfedge(h);
+            if alive && self.excess(h).is_some_and(|excess| excess < settings.shortest) {
+                self.collapse(settings, guard, h, &mut marks);
+            }
+        }
+        let kept = self.surface.compact();
+        crate::improve::surface_mesh::keep(&mut self.lengths, &kept);
+    }
+
+    fn collapse(
+        &mut self,
+        settings: &RemeshSettings,
+        guard: &Guard,
+        h: HalfedgeId,
+        marks: &mut RingMarks,
+    ) {
+        let mesh = &self.surface.mesh;
+        let [a, b] = [mesh.origin(h), mesh.target(h)];
+        let [pa, pb] = [a, b].map(|v| mesh.position(v));
+        // a vertex without a wish stays where it is
+        let places: &[DVec3] = match [a, b].map(|v| self.lengths[v.index()].is_some()) {
+            [true, true] => &[0.5 * (pa + pb), pa, pb],
+            [true, false] => &[pb],
+            [false, true] => &[pa],
+            [false, false] => return,
+        };
+        for &place in places {
+            let Ok(foot) = check_collapse(&self.surface, guard, h, place, marks) else { continue };
+            if self.grows_too_long(settings, [a, b], &foot) {
+                continue;
+            }
+            let wish = match [a, b].map(|v| self.lengths[v.index()]) {
+                [Some(x), Some(y)] => Some(0.5 * (x + y)),
+                _ => None,
+            };
+            self.surface.mesh.collapse(h);
+            self.surface.put(a, foot);
+            self.lengths[a.index()] = wish;
+            return;
+        }
+    }
+
+    /// Whether an edge of the merged vertex would have to be split again.
+    fn grows_too_long(&self, settings: &RemeshSettings, ends: [VertexId; 2], foot: &Foot) -> bool {
+        let mesh = &self.surface.mesh;
+        ends.into_iter().any(|end| {
+            mesh.fan(end).map(|g| mesh.target(g)).filter(|v| !ends.contains(v)).any(|v| {
+                let wanted = self.wanted([end, v]).or(self.wanted(ends));
+                let length = mesh.position(v).distance(foot.point);
+                wanted.is_some_and(|wanted| length > settings.longest * wanted)
+            })
+        })
+    }
+}

@@ -1,0 +1,168 @@
+//! An accuracy instead of a number of faces: the base mesh is changed until the measured deviation
+//! holds everywhere.
+
+mod wishes;
+
+use basemesh::{
+    FaceMap, FieldTarget, RemeshSettings, Simplified, SimplifyError, SimplifySettings, TriMesh,
+    polygonize_to_faces, remesh, simplify,
+};
+use implicit::{Aabb, ImplicitSurface};
+use serde::{Deserialize, Serialize};
+
+use crate::error::FitError;
+use crate::measure::{FaceDeviation, deviation};
+use crate::pipeline::fit_mesh;
+use crate::progress::{Clock, Progress, Stage};
+use crate::settings::Settings;
+use crate::source::FieldSource;
+use crate::surface::{BaseMeshOrigin, G1Surface, Polygonized};
+use wishes::{all_wishes, urgent_wishes};
+
+/// How close the patches must come to the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tolerance {
+    /// Largest distance to the surface.
+    pub distance: Distance,
+    /// Largest angle between patch normal and surface normal in degrees, if that matters.
+    pub normal_deg: Option<f64>,
+}
+
+/// A distance and what it is measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Distance {
+    /// In diagonals of the bounding box of the surface.
+    Relative(f64),
+    /// In units of length.
+    Absolute(f64),
+}
+
+/// How an accuracy was reached.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Adaptation {
+    /// What was asked for.
+    pub tolerance: Tolerance,
+    /// Whether the measured deviation is within it everywhere.
+    pub met: bool,
+    /// Base meshes that were fitted.
+    pub rounds: usize,
+}
+
+/// Rounds in which the whole mesh changes, and rounds that refine where the tolerance is exceeded.
+const SHAPING_ROUNDS: usize = 6;
+const REFINING_ROUNDS: usize = 20;
+/// Shaping ends when a round changes the number of faces by less than this part.
+const SHAPED: f64 = 0.03;
+/// Part of the tolerance that must not be exceeded, so that a denser measurement agrees.
+const SAFETY: f64 = 0.95;
+/// Triangles of the polygonization: as few as show the topology.
+const COARSE: usize = 4000;
+/// Faces of the first base mesh for each triangle of the polygonization, inverse.
+const FIRST_REDUCTION: usize = 16;
+
+/// Implicit surface to G1 spline with a given accuracy and few faces.
+///
+/// Starts from a coarse polygonization whose topology two resolutions agree on. Then the base mesh
+/// is fitted, measured and remeshed in turn: first everywhere, with edge lengths that make the
+/// deviation about the same on all faces (it falls with the sixth power of the length, normal
+/// angles with the fifth), then only where the tolerance is exceeded or where edges are not
+/// resolved. The number of faces in `settings` is not used.
+///
+/// A tolerance that cannot be met is not an error: [`Adaptation::met`] tells.
+///
+/// # Errors
+///
+/// [`FitError`], as for [`fit`](crate::fit).
+pub fn fit_to_tolerance(
+    field: &dyn ImplicitSurface,
+    region: &Aabb,
+    tolerance: &Tolerance,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<G1Surface, FitError> {
+    let mut clock = Clock::new(progress);
+    let dense =
+        clock.run(Stage::Polygonize, COARSE, || polygonize_to_faces(field, region, COARSE))?;
+    let polygonized = Polygonized::from(&dense);
+    let length = dense.mesh.diagonal();
+    let source = FieldSource::new(field, length, settings.projection);
+    let first = clock.run(Stage::Simplify, dense.mesh.topology().face_count(), || {
+        let target = FieldTarget::new(field, length, settings.projection);
+        first_mesh(dense.mesh, &target, &settings.base_mesh.simplify)
+    })?;
+
+    let mut mesh = first.mesh;
+    let mut shaping = SHAPING_ROUNDS;
+    let mut rounds = 0;
+    let (mut surface, met) = loop {
+        rounds += 1;
+        let faces = mesh.topology().face_count();
+        let surface = fit_mesh(mesh, &source, settings, 0, &mut clock)?;
+        let excess = clock.run(Stage::Measure, faces, || excess(&surface, &source, tolerance));
+        let wishes = if shaping > 0 {
+            all_wishes(&surface, &excess)
+        } else {
+            urgent_wishes(&surface, &excess)
+        };
+        if shaping == 0 && (wishes.is_none() || rounds == REFINING_ROUNDS) {
+            break (surface, wishes.is_none());
+        }
+        mesh = match &wishes {
+            Some(wishes) => {
+                clock
+                    .run(Stage::Simplify, faces, || {
+                        remesh(&surface.mesh, &source, wishes, &RemeshSettings::default())
+                    })?
+                    .mesh
+            }
+            None => surface.mesh,
+        };
+        let change = mesh.topology().face_count() as f64 / faces as f64;
+        shaping = if (change - 1.0).abs() < SHAPED { 0 } else { shaping.saturating_sub(1) };
+    };
+    surface.origin = BaseMeshOrigin {
+        polygonized: Some(polygonized),
+        simplified: Some(first.report),
+        added_faces: 0,
+        adaptation: Some(Adaptation { tolerance: *tolerance, met, rounds }),
+    };
+    surface.times = clock.times;
+    Ok(surface)
+}
+
+/// The mesh that is fitted first, with few faces, but enough for its topology.
+fn first_mesh(
+    dense: TriMesh,
+    target: &FieldTarget<'_>,
+    settings: &SimplifySettings,
+) -> Result<Simplified, SimplifyError> {
+    let faces = dense.topology().face_count() / FIRST_REDUCTION / 2 * 2;
+    let to = |faces| SimplifySettings { faces, ..settings.clone() };
+    match simplify(dense.clone(), target, &to(faces)) {
+        Err(SimplifyError::TooFewFaces { needed, .. }) => {
+            simplify(dense, target, &to(needed.div_ceil(2) * 2))
+        }
+        other => other,
+    }
+}
+
+/// How much every face exceeds the tolerance: 1 is just within, and `e` asks for edges shorter by
+/// the sixth root of `e`. Folded patches and samples without foot exceed everything.
+fn excess(surface: &G1Surface, source: &FieldSource<'_>, tolerance: &Tolerance) -> FaceMap<f64> {
+    let diagonal = surface.mesh.diagonal();
+    let distance = match tolerance.distance {
+        Distance::Relative(part) => part * diagonal,
+        Distance::Absolute(length) => length,
+    };
+    let (_, faces) = deviation(&surface.patches.nets, source, diagonal);
+    faces.map(|_, face: &FaceDeviation| {
+        if face.folded {
+            return f64::INFINITY;
+        }
+        let by_distance = face.max / (SAFETY * distance);
+        let by_normal = tolerance
+            .normal_deg
+            .map_or(0.0, |limit| (face.max_normal.to_degrees() / (SAFETY * limit)).powf(6.0 / 5.0));
+        by_distance.max(by_normal)
+    })
+}
