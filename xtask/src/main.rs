@@ -1,2 +1,54 @@
-//! cli
-fn main() {}
+//! Verification and upkeep of the workspace.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
+
+mod fixtures;
+mod study;
+mod table;
+mod tidy;
+mod verify;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Verification and upkeep of the workspace.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Fits every scene in both methods, measures, and compares with bounds and golden numbers.
+    Verify(verify::Options),
+    /// Checks tables of formulas, links in documents and the list of fixtures.
+    Tidy,
+    /// Writes the fixtures that are generated.
+    Fixtures,
+}
+
+/// Success is exit code 0, a failed check 1, and a check that could not be made 2.
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Verify(options) => verify::run(&options),
+        Command::Tidy => tidy::run(),
+        Command::Fixtures => fixtures::run().map(|()| true),
+    };
+    match result {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The root of the workspace.
+fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().expect("invariant: xtask is a folder of the workspace").to_owned()
+}

@@ -65,7 +65,7 @@ pub enum RemeshError {
 ///
 /// Only the surroundings of vertices with a wanted length change; vertices without one stay where
 /// they are, bit for bit, though edges between them may be flipped or split when a neighbour
-/// changes. Edges along which the surface turns beyond the limit are split in any case. Every
+/// changes. Edges along which the surface turns beyond the limit are split, too. Every
 /// collapse, flip and move passes the limits, unless what it replaces was worse; the topology never
 /// changes. The result does not depend on the number of threads, and scaling mesh, lengths and
 /// surface by a power of two scales it bit for bit.

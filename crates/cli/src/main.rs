@@ -1,2 +1,28 @@
-//! cli
-fn main() {}
+//! The command line of smoothpatch: fit an implicit surface with G1 patches, check the result.
+
+mod arguments;
+mod check;
+mod exit;
+mod fit;
+mod progress;
+mod shapes;
+mod stdout;
+mod surface;
+mod table;
+mod threads;
+mod values;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Fit(arguments) => fit::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Shapes(arguments) => shapes::run(&arguments),
+    };
+    exit::code(result)
+}

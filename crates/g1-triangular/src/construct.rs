@@ -3,7 +3,8 @@
 use basemesh::{EdgeMap, FaceMap, HalfedgeMap, SurfaceTarget, TriMesh, VertexMap};
 use bezier_core::{SepticTriangle, SurfaceJet};
 
-use crate::edge_system::{EdgeSolution, EdgeSystem};
+use crate::earlier::{Earlier, Nothing};
+use crate::edge_system::{EdgeRows, EdgeSystem};
 use crate::error::JoinError;
 use crate::faces::{corner_halfedges, local_edge};
 use crate::interior;
@@ -24,6 +25,16 @@ pub struct SmoothPatches {
 }
 
 impl SmoothPatches {
+    /// The rows along an edge; `None` on a boundary.
+    #[must_use]
+    pub fn edge_rows(&self, mesh: &TriMesh, edge: basemesh::EdgeId) -> Option<EdgeRows> {
+        let h = mesh.topology().canonical(edge);
+        let w = mesh.topology().twin(h)?;
+        let [_, _, a, b, c, ..] = self.nets[h.face()].first_inner_row::<7>(local_edge(h));
+        let [_, _, e, d, f, ..] = self.nets[w.face()].first_inner_row::<7>(local_edge(w));
+        Some(EdgeRows { left: [a, b, c], right: [f, d, e], weights: self.weights[edge] })
+    }
+
     /// Largest coefficient of the smoothness condition along an edge, in chord lengths: zero, up to
     /// round-off, for every edge.
     #[must_use]
@@ -64,6 +75,27 @@ pub fn join(
     target: &dyn SurfaceTarget,
     plan: &Plan,
 ) -> Result<SmoothPatches, JoinError> {
+    join_reusing(mesh, jets, network, positional, target, plan, &Nothing)
+}
+
+/// [`join`] that finds only those rows and patches anew that `earlier` does not know.
+///
+/// # Errors
+///
+/// As [`join`].
+///
+/// # Panics
+///
+/// As [`join`].
+pub fn join_reusing(
+    mesh: &TriMesh,
+    jets: &VertexMap<SurfaceJet>,
+    network: &CurveNetwork,
+    positional: FaceMap<SepticTriangle>,
+    target: &dyn SurfaceTarget,
+    plan: &Plan,
+    earlier: &dyn Earlier,
+) -> Result<SmoothPatches, JoinError> {
     let topology = mesh.topology();
     assert_eq!(jets.len(), topology.vertex_count(), "one jet per vertex");
     assert_eq!(network.curves().len(), topology.edge_count(), "one curve per edge");
@@ -77,6 +109,9 @@ pub fn join(
     let spokes = solve_vertices(mesh, jets, network, &origin, &twist)?;
     let twisted = set_twists(positional, &spokes);
     let edges = EdgeMap::try_from_fn(topology.edge_count(), |edge| {
+        if let Some(rows) = earlier.rows(edge) {
+            return Ok(rows);
+        }
         let system = EdgeSystem::new(topology, network, &twisted, &origin, &spokes, edge)?;
         let rows = match plan.rows[edge] {
             Rows::Nearest => None,
@@ -86,7 +121,10 @@ pub fn join(
         rows.or_else(|| system.nearest()).ok_or(JoinError::DegenerateFan { vertex })
     })?;
     let joined = set_rows(mesh, twisted, &edges);
-    let nets = joined.map(|face, net| interior::choose(net, plan.inner_points[face], target));
+    let nets = joined.map(|face, net| {
+        let chosen = || interior::choose(net, plan.inner_points[face], target);
+        earlier.patch(face).unwrap_or_else(chosen)
+    });
     Ok(SmoothPatches { nets, weights: edges.map(|_, edge| edge.weights) })
 }
 
@@ -106,7 +144,7 @@ fn set_twists(
 fn set_rows(
     mesh: &TriMesh,
     nets: FaceMap<SepticTriangle>,
-    edges: &EdgeMap<EdgeSolution>,
+    edges: &EdgeMap<EdgeRows>,
 ) -> FaceMap<SepticTriangle> {
     let topology = mesh.topology();
     nets.map(|face, net| {

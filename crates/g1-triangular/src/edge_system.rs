@@ -53,12 +53,13 @@ pub(crate) struct EdgeSystem {
 
 /// The solved middle of the rows along an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct EdgeSolution {
-    /// Points 2, 3, 4 of the left row.
-    pub(crate) left: [DVec3; 3],
-    /// Points 2, 3, 4 of the right row.
-    pub(crate) right: [DVec3; 3],
-    pub(crate) weights: EdgeWeights,
+pub struct EdgeRows {
+    /// Points 2, 3, 4 of the first inner row of the left patch, along the canonical half-edge.
+    pub left: [DVec3; 3],
+    /// Points 2, 3, 4 of the first inner row of the right patch in the same direction.
+    pub right: [DVec3; 3],
+    /// The weight functions that prove the smoothness.
+    pub weights: EdgeWeights,
 }
 
 impl EdgeSystem {
@@ -156,12 +157,12 @@ impl EdgeSystem {
     }
 
     /// Turns unknowns (relative to the start of the curve) and `ν` into a solution.
-    pub(crate) fn solution(&self, x: &Points, nu: f64) -> EdgeSolution {
+    pub(crate) fn solution(&self, x: &Points, nu: f64) -> EdgeRows {
         let origin = self.curve.points[0];
         let point = |row: usize| origin + DVec3::new(x[(row, 0)], x[(row, 1)], x[(row, 2)]);
         let mut mu = self.mu_at_zero;
         mu[2] += self.slope() * nu / 6.0;
-        EdgeSolution {
+        EdgeRows {
             left: [point(0), point(2), point(4)],
             right: [point(1), point(3), point(5)],
             weights: EdgeWeights { lambda: self.lambda, mu },
@@ -170,7 +171,7 @@ impl EdgeSystem {
 
     /// The solution nearest to the initial guess: the objective of the published scheme
     /// [TK09 (24), (25)], continuous through `λ0 = λ1`. `None` if it is not finite.
-    pub(crate) fn nearest(&self) -> Option<EdgeSolution> {
+    pub(crate) fn nearest(&self) -> Option<EdgeRows> {
         let a = self.matrix();
         let [constant, linear] = self.right_hand_sides();
         let x0 = self.start();

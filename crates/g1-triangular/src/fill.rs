@@ -9,6 +9,7 @@ use basemesh::{FaceId, FaceMap, Foot, SurfaceTarget, TriMesh};
 use bezier_core::glam::DVec3;
 use bezier_core::{BezierTriangle, LocalEdge, MultiIndex, QuarticTriangle, SepticTriangle};
 
+use crate::earlier::{Earlier, Nothing};
 use crate::faces::{corner_halfedges, is_inner};
 use crate::network::CurveNetwork;
 use crate::plan::{Fill, Plan};
@@ -23,6 +24,15 @@ pub struct PositionalPatches {
     pub failed_feet: FaceMap<usize>,
 }
 
+/// One of these patches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PositionalPatch {
+    /// The control net.
+    pub net: SepticTriangle,
+    /// Samples whose projection failed.
+    pub failed_feet: usize,
+}
+
 /// Fills every face of the mesh with a patch over the curve network.
 ///
 /// # Panics
@@ -35,19 +45,38 @@ pub fn fill(
     target: &dyn SurfaceTarget,
     plan: &Plan,
 ) -> PositionalPatches {
+    fill_reusing(mesh, network, target, plan, &Nothing)
+}
+
+/// [`fill`] that finds only those patches anew that `earlier` does not know.
+///
+/// # Panics
+///
+/// As [`fill`].
+#[must_use]
+pub fn fill_reusing(
+    mesh: &TriMesh,
+    network: &CurveNetwork,
+    target: &dyn SurfaceTarget,
+    plan: &Plan,
+    earlier: &dyn Earlier,
+) -> PositionalPatches {
     let faces = mesh.topology().face_count();
     assert_eq!(plan.fill.len(), faces, "one choice per face");
     let filled = FaceMap::from_fn(faces, |face| {
-        let (samples, failed) = samples(mesh, target, face);
+        if let Some(known) = earlier.positional(face) {
+            return known;
+        }
+        let (samples, failed_feet) = samples(mesh, target, face);
         let net = match plan.fill[face] {
             Fill::Septic => septic(mesh, network, face, &samples),
             Fill::Quartic => quartic(mesh, network, target, face, &samples),
         };
-        (net, failed)
+        PositionalPatch { net, failed_feet }
     });
     PositionalPatches {
-        nets: filled.map(|_, (net, _)| *net),
-        failed_feet: filled.map(|_, &(_, failed)| failed),
+        nets: filled.map(|_, patch| patch.net),
+        failed_feet: filled.map(|_, patch| patch.failed_feet),
     }
 }
 

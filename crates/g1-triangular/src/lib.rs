@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod construct;
+mod earlier;
 mod edge_system;
 mod error;
 mod faces;
@@ -17,9 +18,11 @@ mod weights;
 
 pub use basemesh;
 pub use bezier_core;
-pub use construct::{SmoothPatches, join};
+pub use construct::{SmoothPatches, join, join_reusing};
+pub use earlier::{Earlier, Nothing};
+pub use edge_system::EdgeRows;
 pub use error::JoinError;
-pub use fill::{PositionalPatches, fill};
+pub use fill::{PositionalPatch, PositionalPatches, fill, fill_reusing};
 pub use network::CurveNetwork;
 pub use plan::{Fill, InnerPoints, Plan, Rows, Settings};
 pub use residual::g1_residual;

@@ -13,7 +13,7 @@ use bezier_core::glam::DVec3;
 use bezier_core::{Turning, bernstein, binomial};
 use nalgebra::{SMatrix, SVector};
 
-use crate::edge_system::{EdgeSolution, EdgeSystem};
+use crate::edge_system::{EdgeRows, EdgeSystem};
 
 /// Parameters at which rows and surface are compared: midpoints of nine sections.
 const SAMPLES: usize = 9;
@@ -37,7 +37,7 @@ const EQUATIONS: usize = 2 * SAMPLES + 8 + 12 + UNKNOWNS;
 const SIDES: [[usize; 3]; 2] = [[0, 2, 4], [1, 3, 5]];
 
 /// Finds the rows along one edge; `None` if a foot is missing or the solution is not finite.
-pub(crate) fn solve(system: &EdgeSystem, target: &dyn SurfaceTarget) -> Option<EdgeSolution> {
+pub(crate) fn solve(system: &EdgeSystem, target: &dyn SurfaceTarget) -> Option<EdgeRows> {
     let length = system.chord();
     let fit = Fit::new(system, target, length)?;
     let coordinates = fit.least_squares()?;

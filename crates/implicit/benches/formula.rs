@@ -74,15 +74,18 @@ fn enclosure(c: &mut Criterion) {
     let shape = NamedShape::find("dodecahedron").expect("in the catalogue");
     let region = shape.region.expanded(0.1);
     let formula = Formula::parse(shape.formula).expect("in the catalogue");
-    let mut group = c.benchmark_group("enclosure");
-    group.bench_function("shape/dodecahedron", |b| {
-        let field = shape.field();
-        b.iter(|| field.enclosure(black_box(&region)));
-    });
-    group.bench_function("formula/dodecahedron", |b| {
-        b.iter(|| implicit::BoundedField::enclosure(&formula, black_box(&region)));
-    });
-    group.finish();
+    let fields: [(&str, Box<dyn ImplicitSurface>); 2] =
+        [("shape", shape.field()), ("formula", Box::new(formula))];
+    for (kind, field) in fields {
+        let mut group = c.benchmark_group(format!("enclosure/{kind}"));
+        group.bench_function("value/dodecahedron", |b| {
+            b.iter(|| field.enclosure(black_box(&region)));
+        });
+        group.bench_function("gradient/dodecahedron", |b| {
+            b.iter(|| field.gradient_enclosure(black_box(&region)));
+        });
+        group.finish();
+    }
 }
 
 fn parse(c: &mut Criterion) {

@@ -5,7 +5,7 @@ use crate::number::Number;
 /// A formula in x, y, z, written once and evaluated over any [`Number`].
 ///
 /// [`field_from_expression!`](crate::field_from_expression) makes it a field: value, gradient,
-/// Hessian and enclosure all come from the one body.
+/// Hessian and enclosures all come from the one body.
 ///
 /// ```
 /// use implicit::glam::DVec3;
@@ -62,6 +62,10 @@ macro_rules! field_from_expression {
         impl $crate::BoundedField for $shape {
             fn enclosure(&self, region: &$crate::Aabb) -> $crate::Interval {
                 $crate::Expression::eval(self, region.intervals())
+            }
+            fn gradient_enclosure(&self, region: &$crate::Aabb) -> [$crate::Interval; 3] {
+                let variables = $crate::Jet1::variables(region.intervals());
+                $crate::Expression::eval(self, variables).gradient
             }
         }
     )+};

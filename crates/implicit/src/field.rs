@@ -81,6 +81,20 @@ pub trait BoundedField: ImplicitField {
     /// The width shrinks at least in proportion to the box where the field is smooth.
     /// [`Interval::ENTIRE`] means that nothing is known.
     fn enclosure(&self, region: &Aabb) -> Interval;
+
+    /// Intervals that contain the three components of every gradient that
+    /// [`ImplicitField::value_gradient`] returns at a point of `region` where it is not NaN; rounding
+    /// is outward.
+    ///
+    /// They also contain all slopes: with these intervals as a vector G, the exact f(q) − f(p) lies in
+    /// G · (q − p) for any p and q in `region` between which the field is defined throughout.
+    /// At a kink (of `abs`, `min`, `max`) that means the hull of the gradients on both sides; at a
+    /// jump or a pole, and for fields that know nothing about their gradient, all three are
+    /// [`Interval::ENTIRE`].
+    fn gradient_enclosure(&self, region: &Aabb) -> [Interval; 3] {
+        let _ = region;
+        [Interval::ENTIRE; 3]
+    }
 }
 
 /// All that the surface pipeline needs: derivatives and enclosure.
@@ -124,6 +138,9 @@ macro_rules! forward_to_pointee {
         impl<F: BoundedField + ?Sized> BoundedField for $pointer {
             fn enclosure(&self, region: &Aabb) -> Interval {
                 (**self).enclosure(region)
+            }
+            fn gradient_enclosure(&self, region: &Aabb) -> [Interval; 3] {
+                (**self).gradient_enclosure(region)
             }
         }
     )*};

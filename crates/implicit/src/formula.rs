@@ -158,6 +158,10 @@ impl BoundedField for Formula {
     fn enclosure(&self, region: &Aabb) -> Interval {
         self.tape.evaluate(region.intervals())
     }
+
+    fn gradient_enclosure(&self, region: &Aabb) -> [Interval; 3] {
+        self.tape.evaluate(Jet1::variables(region.intervals())).gradient
+    }
 }
 
 /// As text, constants included: a formula read back is the same field.

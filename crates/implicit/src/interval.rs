@@ -1,6 +1,7 @@
 //! Intervals with outward rounding.
 
 mod elementary;
+mod jet;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -72,6 +73,11 @@ impl Interval {
             lo: if lo.is_nan() { f64::NEG_INFINITY } else { lo },
             hi: if hi.is_nan() { f64::INFINITY } else { hi },
         }
+    }
+
+    /// The interval with both ends moved outward by `ulps` units in the last place.
+    fn widened(self, ulps: u32) -> Self {
+        Self::outward(self.lo, self.hi, ulps)
     }
 
     /// |u| over the interval, exact.

@@ -7,49 +7,64 @@ use crate::jet::{Angle, Outer, jet_number, mixed_operators};
 use crate::number::{Number, takes_first};
 
 /// A value with its gradient: what a formula returns in forward mode, first order.
+///
+/// `Jet1` is that of a point; `Jet1<`[`Interval`](crate::Interval)`>` encloses value and gradient
+/// over a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jet1 {
+pub struct Jet1<T = f64> {
     /// The value u.
-    pub value: f64,
+    pub value: T,
     /// The derivatives by x, y, z.
-    pub gradient: [f64; 3],
+    pub gradient: [T; 3],
 }
 
-impl Jet1 {
-    pub(crate) const ZERO: Self = Self { value: 0.0, gradient: [0.0; 3] };
-
-    /// The coordinates of a point as the three independent variables.
+impl<T: Number> Jet1<T> {
+    /// The coordinates of a point, or of a box, as the three independent variables.
     #[inline]
     #[must_use]
-    pub fn variables(p: [f64; 3]) -> [Self; 3] {
+    pub fn variables(p: [T; 3]) -> [Self; 3] {
         from_fn(|axis| {
-            let mut gradient = [0.0; 3];
-            gradient[axis] = 1.0;
+            let mut gradient = [T::constant(0.0); 3];
+            gradient[axis] = T::constant(1.0);
             Self { value: p[axis], gradient }
         })
     }
 
     #[inline]
-    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn map(self, f: impl Fn(T) -> T) -> Self {
         Self { value: f(self.value), gradient: self.gradient.map(f) }
     }
 
+    /// The product of the chain rule: `first` is the derivative of a function whose value is
+    /// `value`.
+    #[inline]
+    pub(crate) fn composed(self, value: T, first: T) -> Self {
+        Self { value, gradient: self.gradient.map(|d| first * d) }
+    }
+
+    /// The same for a function of two variables, `self` and `x`.
+    #[inline]
+    pub(crate) fn composed_with(self, x: Self, value: T, [by_self, by_x]: [T; 2]) -> Self {
+        let gradient = from_fn(|i| by_self * self.gradient[i] + by_x * x.gradient[i]);
+        Self { value, gradient }
+    }
+}
+
+impl Jet1 {
+    pub(crate) const ZERO: Self = Self { value: 0.0, gradient: [0.0; 3] };
+
     #[inline]
     fn chain(self, outer: Outer) -> Self {
-        Self { value: outer.value, gradient: self.gradient.map(|d| outer.first * d) }
+        self.composed(outer.value, outer.first)
     }
 
     #[inline]
     fn chain_angle(self, x: Self, angle: Angle) -> Self {
-        let [by_y, by_x] = angle.first;
-        Self {
-            value: angle.value,
-            gradient: from_fn(|i| by_y * self.gradient[i] + by_x * x.gradient[i]),
-        }
+        self.composed_with(x, angle.value, angle.first)
     }
 }
 
-impl Add for Jet1 {
+impl<T: Number> Add for Jet1<T> {
     type Output = Self;
     #[inline]
     fn add(self, v: Self) -> Self {
@@ -60,7 +75,7 @@ impl Add for Jet1 {
     }
 }
 
-impl Sub for Jet1 {
+impl<T: Number> Sub for Jet1<T> {
     type Output = Self;
     #[inline]
     fn sub(self, v: Self) -> Self {
@@ -72,7 +87,7 @@ impl Sub for Jet1 {
 }
 
 #[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
-impl Mul for Jet1 {
+impl<T: Number> Mul for Jet1<T> {
     type Output = Self;
     #[inline]
     fn mul(self, v: Self) -> Self {
@@ -83,12 +98,12 @@ impl Mul for Jet1 {
     }
 }
 
-impl Div for Jet1 {
+impl<T: Number> Div for Jet1<T> {
     type Output = Self;
     #[inline]
     fn div(self, v: Self) -> Self {
         let value = self.value / v.value;
-        let inverse = 1.0 / v.value;
+        let inverse = T::constant(1.0) / v.value;
         Self { value, gradient: from_fn(|i| (self.gradient[i] - value * v.gradient[i]) * inverse) }
     }
 }

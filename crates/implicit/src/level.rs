@@ -59,4 +59,8 @@ impl<F: BoundedField> BoundedField for Level<F> {
     fn enclosure(&self, region: &Aabb) -> Interval {
         self.field.enclosure(region) - self.level
     }
+
+    fn gradient_enclosure(&self, region: &Aabb) -> [Interval; 3] {
+        self.field.gradient_enclosure(region)
+    }
 }

@@ -3,6 +3,7 @@
 //! Each patch is one cell: a Bézier triangle (type 76) whose points are the control points, or a
 //! Lagrange triangle (type 69) whose points interpolate the patch at the regular lattice.
 
+mod appended;
 mod array;
 mod decode;
 mod document;
@@ -42,12 +43,15 @@ impl CellKind {
     }
 }
 
-/// How numbers are written. Both keep every bit.
+/// How numbers are written. All keep every bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
-    /// Base64 of little-endian numbers, without compression.
+    /// Base64 of little-endian numbers inside the XML, without compression.
     #[default]
     Binary,
+    /// The bytes of little-endian numbers as they are, behind the XML: a quarter shorter. The file is
+    /// no text any more.
+    Appended,
     /// Decimal digits, the shortest that give the same number back.
     Ascii,
 }
@@ -64,7 +68,7 @@ pub struct CellData {
 /// The numbers of a [`CellData`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum CellValues {
-    /// Measured quantities. NaN and infinities only with [`Encoding::Binary`].
+    /// Measured quantities. NaN and infinities not with [`Encoding::Ascii`].
     Float64(Vec<f64>),
     /// Counts and ids.
     Int64(Vec<i64>),

@@ -9,7 +9,7 @@
 
 mod common;
 
-use common::{OCTAHEDRON_CORNERS, Random, bulged, nets_from, octahedron, strip, torus};
+use common::{ENCODINGS, OCTAHEDRON_CORNERS, Random, bulged, nets_from, octahedron, strip, torus};
 use io::basemesh::{FaceMap, Topology};
 use io::bezier_core::{Barycentric, BezierTriangle, LocalEdge, MultiIndex};
 use io::glam::DVec3;
@@ -46,7 +46,7 @@ fn check_round_trip<const P: usize>(topology: &Topology, seed: u64) {
         CellData { name: "a <b> & \"c\"".into(), values: floats },
         CellData { name: "α".into(), values: ints },
     ];
-    for encoding in [Encoding::Binary, Encoding::Ascii] {
+    for encoding in ENCODINGS {
         let options =
             VtuOptions { encoding, cell_data: cell_data.clone(), cells: CellKind::Bezier };
         let file = written(topology, &nets, &options);
@@ -158,7 +158,7 @@ fn check_lagrange<const P: usize>(expected_amplification: f64) {
     );
     let roundings = (2 * BezierTriangle::<DVec3, P>::DEGREE + 1 + P) as f64;
     let bound = 2.0 * amplification * roundings * f64::EPSILON;
-    for encoding in [Encoding::Binary, Encoding::Ascii] {
+    for encoding in ENCODINGS {
         let options = VtuOptions { cells: CellKind::Lagrange, encoding, ..VtuOptions::default() };
         let file = written(&topology, &nets, &options);
         let back = read_vtu::<P>(&mut file.as_slice()).unwrap();
@@ -291,9 +291,11 @@ fn refusals_of_the_writer() {
         message(&nets, nan(), Encoding::Ascii),
         "the cell data 'q' is NaN at patch 3; use the binary encoding"
     );
-    let options = VtuOptions { cell_data: nan(), ..VtuOptions::default() };
-    let back = read_vtu::<10>(&mut written(&topology, &nets, &options).as_slice()).unwrap();
-    assert!(matches!(&back.cell_data[0].values, CellValues::Float64(v) if v[3].is_nan()));
+    for encoding in [Encoding::Binary, Encoding::Appended] {
+        let options = VtuOptions { cell_data: nan(), encoding, ..VtuOptions::default() };
+        let back = read_vtu::<10>(&mut written(&topology, &nets, &options).as_slice()).unwrap();
+        assert!(matches!(&back.cell_data[0].values, CellValues::Float64(v) if v[3].is_nan()));
+    }
 }
 
 #[test]

@@ -11,8 +11,9 @@ use implicit::{Aabb, ImplicitSurface};
 use serde::{Deserialize, Serialize};
 
 use crate::error::FitError;
-use crate::measure::{FaceDeviation, deviation};
-use crate::pipeline::fit_mesh;
+use crate::measure::{FaceDeviation, settle};
+use crate::memory::Memory;
+use crate::pipeline::{fit_again, fit_mesh};
 use crate::progress::{Clock, Progress, Stage};
 use crate::settings::Settings;
 use crate::source::FieldSource;
@@ -24,7 +25,7 @@ use wishes::{all_wishes, urgent_wishes};
 pub struct Tolerance {
     /// Largest distance to the surface.
     pub distance: Distance,
-    /// Largest angle between patch normal and surface normal in degrees, if that matters.
+    /// Largest angle between patch normal and surface normal in degrees; never more than 10°.
     pub normal_deg: Option<f64>,
 }
 
@@ -55,10 +56,12 @@ const REFINING_ROUNDS: usize = 20;
 const SHAPED: f64 = 0.03;
 /// Part of the tolerance that must not be exceeded, so that a denser measurement agrees.
 const SAFETY: f64 = 0.95;
+/// Largest normal angle in degrees, whatever is asked for: patches that lean more are nearly folded.
+const NORMAL_DEG: f64 = 10.0;
 /// Triangles of the polygonization: as few as show the topology.
 const COARSE: usize = 4000;
 /// Faces of the first base mesh for each triangle of the polygonization, inverse.
-const FIRST_REDUCTION: usize = 16;
+const FIRST_REDUCTION: usize = 8;
 
 /// Implicit surface to G1 spline with a given accuracy and few faces.
 ///
@@ -93,19 +96,32 @@ pub fn fit_to_tolerance(
 
     let mut mesh = first.mesh;
     let mut shaping = SHAPING_ROUNDS;
-    let mut rounds = 0;
+    let (mut rounds, mut refining) = (0, 0);
+    let mut memory = Memory::default();
     let (mut surface, met) = loop {
         rounds += 1;
         let faces = mesh.topology().face_count();
-        let surface = fit_mesh(mesh, &source, settings, 0, &mut clock)?;
-        let excess = clock.run(Stage::Measure, faces, || excess(&surface, &source, tolerance));
+        let (surface, mut deviations) =
+            fit_again(mesh, &source, settings, &mut memory, &mut clock)?;
+        if shaping == 0 {
+            clock
+                .run(Stage::Measure, 0, || settle(&mut deviations, &surface.patches.nets, &source));
+        }
+        let excess = excess(&surface, &deviations, tolerance);
         let wishes = if shaping > 0 {
             all_wishes(&surface, &excess)
         } else {
-            urgent_wishes(&surface, &excess)
+            refining += 1;
+            urgent_wishes(&surface, &excess, refining)
         };
-        if shaping == 0 && (wishes.is_none() || rounds == REFINING_ROUNDS) {
-            break (surface, wishes.is_none());
+        if shaping == 0 && (wishes.is_none() || refining == REFINING_ROUNDS) {
+            let met = wishes.is_none();
+            let surface = if met {
+                surface
+            } else {
+                fit_mesh(surface.mesh, &source, settings, 0, &mut clock)?
+            };
+            break (surface, met);
         }
         mesh = match &wishes {
             Some(wishes) => {
@@ -148,21 +164,23 @@ fn first_mesh(
 
 /// How much every face exceeds the tolerance: 1 is just within, and `e` asks for edges shorter by
 /// the sixth root of `e`. Folded patches and samples without foot exceed everything.
-fn excess(surface: &G1Surface, source: &FieldSource<'_>, tolerance: &Tolerance) -> FaceMap<f64> {
+fn excess(
+    surface: &G1Surface,
+    deviations: &FaceMap<FaceDeviation>,
+    tolerance: &Tolerance,
+) -> FaceMap<f64> {
     let diagonal = surface.mesh.diagonal();
     let distance = match tolerance.distance {
         Distance::Relative(part) => part * diagonal,
         Distance::Absolute(length) => length,
     };
-    let (_, faces) = deviation(&surface.patches.nets, source, diagonal);
-    faces.map(|_, face: &FaceDeviation| {
+    deviations.map(|_, face: &FaceDeviation| {
         if face.folded {
             return f64::INFINITY;
         }
         let by_distance = face.max / (SAFETY * distance);
-        let by_normal = tolerance
-            .normal_deg
-            .map_or(0.0, |limit| (face.max_normal.to_degrees() / (SAFETY * limit)).powf(6.0 / 5.0));
+        let limit = tolerance.normal_deg.unwrap_or(NORMAL_DEG).min(NORMAL_DEG);
+        let by_normal = (face.max_normal.to_degrees() / (SAFETY * limit)).powf(6.0 / 5.0);
         by_distance.max(by_normal)
     })
 }

@@ -5,6 +5,7 @@ pub mod measure;
 mod adapt;
 mod error;
 mod folds;
+mod memory;
 mod objectives;
 mod pipeline;
 mod progress;

@@ -6,4 +6,5 @@ mod interpolation;
 
 pub use continuity::{Continuity, SEAM_SAMPLES, continuity, seam};
 pub use deviation::{Deviation, FaceDeviation, GRID, deviation, folded_patches};
+pub(crate) use deviation::{face_deviations, settle};
 pub use interpolation::{Interpolation, interpolation};

@@ -5,12 +5,14 @@ use basemesh::{
     simplify,
 };
 use bezier_core::SurfaceJet;
-use g1_triangular::{CurveNetwork, SmoothPatches};
+use g1_triangular::{CurveNetwork, SmoothPatches, fill_reusing, join_reusing};
 use hermite_sqp::{CurveFoot, CurveRefinement, CurveSample, EdgeOutcome, EdgeProblem};
 use implicit::{Aabb, ImplicitSurface};
 
 use crate::error::FitError;
 use crate::folds::find_folds;
+use crate::measure::{FaceDeviation, face_deviations};
+use crate::memory::{Keys, Memory, Recall};
 use crate::objectives::Objectives;
 use crate::progress::{Clock, Progress, Stage, StageTimes};
 use crate::repair::{edges_to_split, refine};
@@ -127,8 +129,58 @@ pub(crate) fn fit_mesh(
         })?;
         fitted = fit_patches(&mesh, &jets, curves, source, &objectives, clock)?;
     }
+    Ok(surface(mesh, jets, fitted, objectives))
+}
+
+/// Curves, then patches, then smooth patches, found anew only where the mesh has changed since the
+/// fit that is remembered; `memory` then remembers this one. No repair, no fold guard: what is wrong
+/// shows in the deviation, and the mesh changes there.
+pub(crate) fn fit_again(
+    mesh: TriMesh,
+    source: &dyn FitSource,
+    settings: &Settings,
+    memory: &mut Memory,
+    clock: &mut Clock<'_>,
+) -> Result<(G1Surface, FaceMap<FaceDeviation>), FitError> {
+    let topology = mesh.topology();
+    let [vertices, edges, faces] =
+        [topology.vertex_count(), topology.edge_count(), topology.face_count()];
+    let keys = Keys::new(&mesh);
+    let recall = Recall { memory, keys: &keys };
+    let objectives = Objectives::uniform(topology, settings);
+    let plan = &objectives.patches;
+
+    let jets = clock.run(Stage::Vertices, vertices, || vertex_jets(&mesh, source))?;
+    let curves = clock.run(Stage::Curves, edges, || {
+        EdgeMap::try_from_fn(edges, |edge| {
+            let fit = || fit_curve(&mesh, &jets, source, settings, edge, settings.curve_refinement);
+            recall.curve(edge).map_or_else(fit, Ok)
+        })
+    })?;
+    let network = CurveNetwork::new(curves.map(|_, outcome| outcome.curve));
+    let positional =
+        clock.run(Stage::Fill, faces, || fill_reusing(&mesh, &network, source, plan, &recall));
+    let patches = clock.run(Stage::Join, faces, || {
+        let nets = positional.nets.clone();
+        join_reusing(&mesh, &jets, &network, nets, source, plan, &recall)
+    })?;
+    let deviations = clock.run(Stage::Measure, faces, || {
+        face_deviations(&patches.nets, source, |face| recall.deviation(face))
+    });
+    *memory = Memory::of(&keys, &curves, &positional, &patches, &deviations);
+    let failed_feet = positional.failed_feet;
+    let fitted = Fitted { curves, network, failed_feet, patches };
+    Ok((surface(mesh, jets, fitted, objectives), deviations))
+}
+
+fn surface(
+    mesh: TriMesh,
+    jets: VertexMap<SurfaceJet>,
+    fitted: Fitted,
+    objectives: Objectives,
+) -> G1Surface {
     let Fitted { curves, network, failed_feet, patches } = fitted;
-    Ok(G1Surface {
+    G1Surface {
         mesh,
         jets,
         curves,
@@ -138,7 +190,7 @@ pub(crate) fn fit_mesh(
         retreats: objectives.retreats,
         origin: BaseMeshOrigin::default(),
         times: StageTimes::default(),
-    })
+    }
 }
 
 /// A curve network and its smooth patches.

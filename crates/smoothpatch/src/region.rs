@@ -30,7 +30,9 @@ pub fn find_region(field: &dyn ImplicitSurface) -> Result<Aabb, PolygonizeError>
             }
             Err(error) => {
                 // a surface that leaves a box tells more than an empty box
-                if !matches!(error, PolygonizeError::NoSurface { .. }) || last.is_none() {
+                let empty =
+                    |error: &PolygonizeError| matches!(error, PolygonizeError::NoSurface { .. });
+                if !empty(&error) || last.as_ref().is_none_or(empty) {
                     last = Some(error);
                 }
             }

@@ -49,7 +49,7 @@ fn disturbance() -> impl Strategy<Value = Disturbance> {
         true => Edit::Flip(number),
         false => Edit::Split(number),
     });
-    (prop::collection::vec(edit, 0..60), 0.0..0.2, any::<u64>())
+    (prop::collection::vec(edit, 0..80), 0.0..0.15, any::<u64>())
 }
 
 fn disturbed(mesh: TriMesh, (edits, jitter, seed): &Disturbance) -> TriMesh {
@@ -114,7 +114,7 @@ proptest! {
 
     #[test]
     fn disturbed_ellipsoids(field in blob(), change in disturbance()) {
-        let sphere = disturbed(icosphere(1), &change);
+        let sphere = disturbed(icosphere(2), &change);
         let mesh = radially_on_surface(&sphere, &field, 4.0);
         prop_assume!(is_usable(&mesh, &field));
         check(&field, &mesh)?;
@@ -122,7 +122,7 @@ proptest! {
 
     #[test]
     fn blended_balls(field in blend(), change in disturbance()) {
-        let sphere = disturbed(icosphere(1), &change);
+        let sphere = disturbed(icosphere(2), &change);
         let mesh = radially_on_surface(&sphere, &field, 4.0);
         prop_assume!(is_usable(&mesh, &field));
         check(&field, &mesh)?;
@@ -131,7 +131,7 @@ proptest! {
     #[test]
     fn tori(minor_radius in 0.5..1.4, change in disturbance()) {
         let field = Torus { major_radius: 3.0, minor_radius };
-        let grid = torus_grid([3.0, minor_radius], 14, 8);
+        let grid = torus_grid([3.0, minor_radius], 18, 10);
         let mesh = on_surface(&disturbed(grid, &change), &field);
         prop_assume!(mesh.is_some());
         let mesh = mesh.unwrap();

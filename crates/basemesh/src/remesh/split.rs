@@ -6,7 +6,7 @@ use crate::improve::guard::area_vector;
 use crate::quality::angle_between;
 
 /// Most sweeps over all edges; every sweep halves the longest.
-const MAX_SWEEPS: usize = 8;
+const MAX_SWEEPS: usize = 4;
 /// Share by which an edge must exceed the turning limit: many edges are exactly at it, up to
 /// rounding.
 const EXCESS: f64 = 1e-9;

@@ -10,7 +10,7 @@ use crate::number::{Number, positive_power};
 ///
 /// The common libraries stay below one unit for sin, cos, tan, exp, ln and pow and below two for
 /// tanh and atan2; the language promises nothing, so we double the worst.
-const LIBRARY_ULPS: u32 = 4;
+pub(super) const LIBRARY_ULPS: u32 = 4;
 
 /// Angles above this size are not reduced by periods: neighbouring numbers are then 2⁻¹² apart or
 /// more, and the whole range is the honest answer.

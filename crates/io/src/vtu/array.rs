@@ -1,4 +1,4 @@
-//! Writing one `<DataArray>`.
+//! Writing `<DataArray>`s.
 
 use std::io::{self, BufWriter, Write};
 
@@ -55,31 +55,62 @@ impl<'a> ArrayHead<'a> {
     }
 }
 
-/// Writes `values`, `head.count` of them, as one array.
-pub(super) fn write_array<T: Scalar>(
-    out: &mut dyn Write,
+/// Writes one array after the other.
+pub(super) struct ArrayWriter {
     encoding: Encoding,
-    head: ArrayHead<'_>,
-    values: impl Iterator<Item = T>,
-) -> io::Result<()> {
-    let format = match encoding {
-        Encoding::Binary => "binary",
-        Encoding::Ascii => "ascii",
-    };
-    write!(out, r#"<DataArray type="{}" Name="{}""#, T::TYPE, escape(head.name))?;
-    if head.components > 1 {
-        write!(out, r#" NumberOfComponents="{}""#, head.components)?;
-    }
-    writeln!(out, r#" format="{format}">"#)?;
-    match encoding {
-        Encoding::Binary => write_binary(out, head.count, values)?,
-        Encoding::Ascii => write_ascii(out, head.per_line, values)?,
-    }
-    writeln!(out, "\n</DataArray>")
+    /// What stands behind the XML in the end.
+    appended: Vec<u8>,
 }
 
-/// The number of bytes as u64, then the bytes, as one stream of base64.
-fn write_binary<T: Scalar>(
+impl ArrayWriter {
+    pub(super) fn new(encoding: Encoding) -> Self {
+        Self { encoding, appended: Vec::new() }
+    }
+
+    /// Writes `values`, `head.count` of them, as one array.
+    pub(super) fn write<T: Scalar>(
+        &mut self,
+        out: &mut dyn Write,
+        head: ArrayHead<'_>,
+        values: impl Iterator<Item = T>,
+    ) -> io::Result<()> {
+        write!(out, r#"<DataArray type="{}" Name="{}""#, T::TYPE, escape(head.name))?;
+        if head.components > 1 {
+            write!(out, r#" NumberOfComponents="{}""#, head.components)?;
+        }
+        match self.encoding {
+            Encoding::Binary => {
+                writeln!(out, r#" format="binary">"#)?;
+                write_base64(out, head.count, values)?;
+                writeln!(out, "\n</DataArray>")
+            }
+            Encoding::Appended => {
+                let offset = self.appended.len();
+                writeln!(out, r#" format="appended" offset="{offset}"/>"#)?;
+                write_block(&mut self.appended, head.count, values)
+            }
+            Encoding::Ascii => {
+                writeln!(out, r#" format="ascii">"#)?;
+                write_ascii(out, head.per_line, values)?;
+                writeln!(out, "\n</DataArray>")
+            }
+        }
+    }
+
+    /// Writes what belongs behind the grid.
+    pub(super) fn finish(self, out: &mut dyn Write) -> io::Result<()> {
+        if self.encoding != Encoding::Appended {
+            return Ok(());
+        }
+        writeln!(out, r#"<AppendedData encoding="raw">"#)?;
+        out.write_all(b"_")?;
+        out.write_all(&self.appended)?;
+        writeln!(out, "\n</AppendedData>")
+    }
+}
+
+/// The block of an array as one stream of base64.
+fn write_base64<T: Scalar>(
     out: &mut dyn Write,
     count: usize,
     values: impl Iterator<Item = T>,
@@ -87,15 +118,22 @@ fn write_binary<T: Scalar>(
     let mut encoder = EncoderWriter::new(out, &STANDARD);
     {
         let mut buffer = BufWriter::with_capacity(3 << 14, &mut encoder);
-        let bytes = (count as u64) * (T::BYTES as u64);
-        buffer.write_all(&bytes.to_le_bytes())?;
-        for value in values {
-            value.write_bytes(&mut buffer)?;
-        }
+        write_block(&mut buffer, count, values)?;
         buffer.flush()?;
     }
     encoder.finish()?;
     Ok(())
+}
+
+/// The number of bytes as u64, then the bytes.
+fn write_block<T: Scalar>(
+    out: &mut dyn Write,
+    count: usize,
+    mut values: impl Iterator<Item = T>,
+) -> io::Result<()> {
+    let bytes = (count as u64) * (T::BYTES as u64);
+    out.write_all(&bytes.to_le_bytes())?;
+    values.try_for_each(|value| value.write_bytes(out))
 }
 
 fn write_ascii<T: Scalar>(

@@ -6,15 +6,35 @@ use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
+use super::appended::AppendedEncoding;
 use super::error::VtuReadError;
 
-/// How numbers are stored in a `format="binary"` array.
+/// How numbers are stored as bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct BinaryLayout {
     pub(super) big_endian: bool,
     /// The byte count before each array has 8 bytes instead of 4.
     pub(super) long_header: bool,
     pub(super) compressed: bool,
+    pub(super) appended: AppendedEncoding,
+}
+
+impl BinaryLayout {
+    /// The size of the byte count before each array.
+    pub(super) fn header_bytes(self) -> usize {
+        if self.long_header { 8 } else { 4 }
+    }
+}
+
+/// Where the numbers of an array are.
+#[derive(Clone, Debug)]
+pub(super) enum Format<'a> {
+    /// Decimal digits in the element.
+    Ascii(Cow<'a, str>),
+    /// Base64 in the element.
+    Binary(Cow<'a, str>),
+    /// Behind the XML, so many bytes after the underscore.
+    Appended(usize),
 }
 
 /// One `<DataArray>`.
@@ -23,8 +43,7 @@ pub(super) struct RawArray<'a> {
     pub(super) name: String,
     pub(super) type_name: String,
     pub(super) components: usize,
-    pub(super) binary: bool,
-    pub(super) text: Cow<'a, str>,
+    pub(super) format: Format<'a>,
 }
 
 /// The parts of a file with one piece.
@@ -37,11 +56,14 @@ pub(super) struct Document<'a> {
     pub(super) cells: Vec<RawArray<'a>>,
     pub(super) cell_data: Vec<RawArray<'a>>,
     pub(super) point_data: Vec<RawArray<'a>>,
+    /// The blocks behind the XML.
+    pub(super) appended: Option<&'a [u8]>,
     /// Name of the point data array that makes the cells rational.
     pub(super) rational_weights: Option<String>,
 }
 
-/// Reads the structure of a file; the numbers stay text.
+/// Reads the structure of a file, or of what comes before the contents of its `<AppendedData>`; the
+/// numbers stay text.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, VtuReadError> {
     let mut reader = Reader::from_str(text);
     reader.config_mut().expand_empty_elements = true;
@@ -107,9 +129,13 @@ struct Parser<'a> {
 impl<'a> Parser<'a> {
     fn open(&mut self, element: &BytesStart<'_>) -> Result<(), OpenError> {
         let name = element.name().as_ref().to_owned();
+        check_attributes(element)?;
         match (self.open.last().map_or("", String::as_str), name.as_str()) {
             ("", "VTKFile") => self.open_file(element)?,
             ("VTKFile", "UnstructuredGrid") => self.has_grid = true,
+            ("VTKFile", "AppendedData") => {
+                self.document.layout.appended = appended_encoding(element)?;
+            }
             ("UnstructuredGrid", "Piece") => self.open_piece(element)?,
             ("Piece", "PointData") => {
                 self.document.rational_weights = attribute(element, "RationalWeights")?;
@@ -173,10 +199,11 @@ impl<'a> Parser<'a> {
         if self.in_array()
             && let Some(array) = self.arrays().and_then(|arrays| arrays.last_mut())
         {
-            if array.text.trim_ascii().is_empty() {
-                array.text = part;
+            let (Format::Ascii(text) | Format::Binary(text)) = &mut array.format else { return };
+            if text.trim_ascii().is_empty() {
+                *text = part;
             } else if !part.trim_ascii().is_empty() {
-                array.text.to_mut().push_str(&part);
+                text.to_mut().push_str(&part);
             }
         }
     }
@@ -186,6 +213,10 @@ impl<'a> Parser<'a> {
     }
 
     fn finish(mut self) -> Result<Document<'a>, VtuReadError> {
+        // what follows this tag is no XML and was cut off
+        if self.open == ["VTKFile", "AppendedData"] {
+            self.open.clear();
+        }
         if let Some(element) = self.open.pop() {
             return Err(VtuReadError::Truncated { element });
         }
@@ -201,14 +232,13 @@ impl<'a> Parser<'a> {
 
 fn open_array<'a>(element: &BytesStart<'_>) -> Result<RawArray<'a>, OpenError> {
     let components = attribute(element, "NumberOfComponents")?;
-    let format = attribute(element, "format")?;
-    let binary = match format.as_deref() {
-        None | Some("ascii") => false,
-        Some("binary") => true,
-        Some("appended") => return Err(appended().into()),
-        Some(_) => {
-            let (attribute, value) = ("format", format.unwrap_or_default());
-            let expected = "ascii or binary";
+    let format = match attribute(element, "format")?.as_deref() {
+        None | Some("ascii") => Format::Ascii(Cow::Borrowed("")),
+        Some("binary") => Format::Binary(Cow::Borrowed("")),
+        Some("appended") => Format::Appended(count(element, "offset")?),
+        Some(value) => {
+            let (attribute, value) = ("format", value.to_owned());
+            let expected = "ascii, binary or appended";
             return Err(VtuReadError::Attribute { attribute, value, expected }.into());
         }
     };
@@ -216,15 +246,22 @@ fn open_array<'a>(element: &BytesStart<'_>) -> Result<RawArray<'a>, OpenError> {
         name: attribute(element, "Name")?.unwrap_or_default(),
         type_name: attribute(element, "type")?.unwrap_or_default(),
         components: components.and_then(|text| text.parse().ok()).unwrap_or(1),
-        binary,
-        text: Cow::Borrowed(""),
+        format,
     })
 }
 
-/// The error for numbers that stand at the end of the file.
-pub(super) fn appended() -> VtuReadError {
-    let what = "appended data are";
-    VtuReadError::Unsupported { what, instead: "data mode 'ascii' or 'binary', uncompressed" }
+fn appended_encoding(element: &BytesStart<'_>) -> Result<AppendedEncoding, OpenError> {
+    let allowed = ["raw", "base64"];
+    let encoding = choice(element, "encoding", &allowed, "base64", "raw or base64")?;
+    Ok(if encoding == "raw" { AppendedEncoding::Raw } else { AppendedEncoding::Base64 })
+}
+
+/// Looks at the attributes that nobody asks for, too: a damaged one is a damaged file.
+fn check_attributes(element: &BytesStart<'_>) -> Result<(), OpenError> {
+    let malformed = |message: String| OpenError::Malformed(message);
+    element
+        .attributes()
+        .try_for_each(|found| found.map(drop).map_err(|error| malformed(error.to_string())))
 }
 
 fn attribute(element: &BytesStart<'_>, name: &str) -> Result<Option<String>, OpenError> {
@@ -251,7 +288,7 @@ fn choice(
 
 fn count(element: &BytesStart<'_>, name: &'static str) -> Result<usize, OpenError> {
     let value = attribute(element, name)?.unwrap_or_default();
-    let expected = "a number of elements";
+    let expected = "a whole number";
     value
         .trim()
         .parse()

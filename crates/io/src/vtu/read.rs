@@ -7,7 +7,8 @@ use basemesh::{FaceId, FaceMap, Topology};
 use bezier_core::BezierTriangle;
 use glam::DVec3;
 
-use super::document::{self, BinaryLayout, Document, RawArray};
+use super::appended;
+use super::document::{self, Document, RawArray};
 use super::error::VtuReadError;
 use super::interpolation::Interpolation;
 use super::{CellData, CellKind, CellValues, VtuSurface};
@@ -24,8 +25,8 @@ use crate::node_order::node_order;
 /// (by up to 10 in degree 3, 412 in degree 7, 5e4 in degree 12); exact neighbours stay exact
 /// neighbours.
 ///
-/// Numbers may be text or inline base64, of either byte order; appended or compressed data and
-/// rational patches are refused. Bytes that are not such a file are refused with an error, never a
+/// Numbers may be text, base64, or appended (raw or base64), of either byte order; compressed data
+/// and rational patches are refused. Bytes that are not such a file are refused with an error, never a
 /// panic.
 ///
 /// # Errors
@@ -50,8 +51,9 @@ pub fn read_vtu_file<const P: usize>(
 
 fn from_bytes<const P: usize>(bytes: &[u8]) -> Result<VtuSurface<P>, VtuReadError> {
     const { assert!(P >= 3, "a cell has three corners") };
-    let text = std::str::from_utf8(bytes).map_err(|error| not_text(bytes, error))?;
-    let document = document::parse(text)?;
+    let (xml, appended) = appended::split(bytes)?;
+    let text = std::str::from_utf8(xml).map_err(|error| not_text(xml, error))?;
+    let document = Document { appended, ..document::parse(text)? };
     refuse_rational(&document)?;
     let points = points(&document)?;
     let kind = cell_kind(&document)?;
@@ -68,13 +70,8 @@ fn from_bytes<const P: usize>(bytes: &[u8]) -> Result<VtuSurface<P>, VtuReadErro
     Ok(VtuSurface { topology, nets, cell_data, skipped })
 }
 
-/// Raw appended data are not text: a likelier reason than damage.
 fn not_text(bytes: &[u8], error: std::str::Utf8Error) -> VtuReadError {
     let before = &bytes[..error.valid_up_to()];
-    let tag = b"<AppendedData";
-    if before.windows(tag.len()).any(|window| window == tag) {
-        return document::appended();
-    }
     let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
     VtuReadError::Xml { line, message: "the bytes are not UTF-8".to_owned() }
 }
@@ -82,7 +79,7 @@ fn not_text(bytes: &[u8], error: std::str::Utf8Error) -> VtuReadError {
 fn refuse_rational(document: &Document<'_>) -> Result<(), VtuReadError> {
     let Some(name) = &document.rational_weights else { return Ok(()) };
     for array in document.point_data.iter().filter(|array| array.name == *name) {
-        let weights = array.floats(document.layout)?;
+        let weights = array.floats(document)?;
         if weights.iter().any(|weight| weight.to_bits() != 1.0_f64.to_bits()) {
             let what = "rational patches are";
             return Err(VtuReadError::Unsupported { what, instead: "polynomial patches" });
@@ -94,7 +91,7 @@ fn refuse_rational(document: &Document<'_>) -> Result<(), VtuReadError> {
 fn points(document: &Document<'_>) -> Result<Vec<DVec3>, VtuReadError> {
     let array =
         document.points.first().ok_or(VtuReadError::Missing { what: "array in <Points>" })?;
-    let numbers = array.floats(document.layout)?;
+    let numbers = array.floats(document)?;
     let (points, rest) = numbers.as_chunks::<3>();
     if array.components != 3 || !rest.is_empty() {
         return Err(array.error("does not have three numbers for each point"));
@@ -127,7 +124,7 @@ fn cell_array<'d, 'a>(
 
 fn cell_kind(document: &Document<'_>) -> Result<CellKind, VtuReadError> {
     let array = cell_array(document, "types", "array 'types' in <Cells>")?;
-    let types = array.integers(document.layout)?;
+    let types = array.integers(document)?;
     check_count(array, "values", types.len(), document.cell_count)?;
     let kind_of =
         |found: i64| CellKind::ALL.into_iter().find(|kind| i64::from(kind.vtk_type()) == found);
@@ -151,7 +148,7 @@ fn connectivity<const P: usize>(
 ) -> Result<Vec<[usize; P]>, VtuReadError> {
     check_offsets::<P>(document)?;
     let array = cell_array(document, "connectivity", "array 'connectivity' in <Cells>")?;
-    let ids = array.integers(document.layout)?;
+    let ids = array.integers(document)?;
     let (cells, rest) = ids.as_chunks::<P>();
     if !rest.is_empty() || cells.len() != document.cell_count {
         let (found, cells) = (ids.len(), document.cell_count);
@@ -174,7 +171,7 @@ fn connectivity<const P: usize>(
 
 fn check_offsets<const P: usize>(document: &Document<'_>) -> Result<(), VtuReadError> {
     let array = cell_array(document, "offsets", "array 'offsets' in <Cells>")?;
-    let ends = array.integers(document.layout)?;
+    let ends = array.integers(document)?;
     check_count(array, "values", ends.len(), document.cell_count)?;
     let mut start = 0_i64;
     for (cell, end) in ends.into_iter().enumerate() {
@@ -238,17 +235,17 @@ fn cell_data(document: &Document<'_>) -> Result<(Vec<CellData>, Vec<String>), Vt
             skipped.push(array.name.clone());
             continue;
         }
-        let values = numbers(array, document.layout)?;
+        let values = numbers(array, document)?;
         check_count(array, "values", values.len(), document.cell_count)?;
         kept.push(CellData { name: array.name.clone(), values });
     }
     Ok((kept, skipped))
 }
 
-fn numbers(array: &RawArray<'_>, layout: BinaryLayout) -> Result<CellValues, VtuReadError> {
+fn numbers(array: &RawArray<'_>, document: &Document<'_>) -> Result<CellValues, VtuReadError> {
     if array.is_float() {
-        array.floats(layout).map(CellValues::Float64)
+        array.floats(document).map(CellValues::Float64)
     } else {
-        array.integers(layout).map(CellValues::Int64)
+        array.integers(document).map(CellValues::Int64)
     }
 }

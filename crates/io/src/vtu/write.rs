@@ -6,7 +6,7 @@ use basemesh::{FaceMap, Topology};
 use bezier_core::{BezierTriangle, MultiIndex};
 use glam::DVec3;
 
-use super::array::{ArrayHead, write_array};
+use super::array::{ArrayHead, ArrayWriter};
 use super::error::VtuWriteError;
 use super::{CellData, CellKind, CellValues, Encoding, VtuOptions};
 use crate::lattice::Lattice;
@@ -108,6 +108,7 @@ fn write_grid(
     options: &VtuOptions,
 ) -> io::Result<()> {
     let cells = connectivity.len() / points_per_cell;
+    let mut arrays = ArrayWriter::new(options.encoding);
     writeln!(out, r#"<?xml version="1.0"?>"#)?;
     writeln!(
         out,
@@ -115,23 +116,29 @@ fn write_grid(
     )?;
     writeln!(out, "<UnstructuredGrid>")?;
     writeln!(out, r#"<Piece NumberOfPoints="{}" NumberOfCells="{cells}">"#, points.len())?;
-    write_cell_data(out, options)?;
+    write_cell_data(out, &mut arrays, options)?;
     writeln!(out, "<Points>")?;
     let coordinates = points.iter().flat_map(DVec3::to_array);
     let head = ArrayHead { name: "Points", components: 3, count: 3 * points.len(), per_line: 3 };
-    write_array(out, options.encoding, head, coordinates)?;
+    arrays.write(out, head, coordinates)?;
     writeln!(out, "</Points>\n<Cells>")?;
     let per_line = points_per_cell;
     let head = ArrayHead { per_line, ..ArrayHead::scalars("connectivity", connectivity.len()) };
-    write_array(out, options.encoding, head, connectivity.iter().copied())?;
+    arrays.write(out, head, connectivity.iter().copied())?;
     let ends = (1..=cells).map(|cell| to_i64(cell * points_per_cell));
-    write_array(out, options.encoding, ArrayHead::scalars("offsets", cells), ends)?;
+    arrays.write(out, ArrayHead::scalars("offsets", cells), ends)?;
     let types = std::iter::repeat_n(options.cells.vtk_type(), cells);
-    write_array(out, options.encoding, ArrayHead::scalars("types", cells), types)?;
-    writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+    arrays.write(out, ArrayHead::scalars("types", cells), types)?;
+    writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>")?;
+    arrays.finish(out)?;
+    writeln!(out, "</VTKFile>")
 }
 
-fn write_cell_data(out: &mut dyn Write, options: &VtuOptions) -> io::Result<()> {
+fn write_cell_data(
+    out: &mut dyn Write,
+    arrays: &mut ArrayWriter,
+    options: &VtuOptions,
+) -> io::Result<()> {
     if options.cell_data.is_empty() {
         return Ok(());
     }
@@ -139,12 +146,8 @@ fn write_cell_data(out: &mut dyn Write, options: &VtuOptions) -> io::Result<()> 
     for CellData { name, values } in &options.cell_data {
         let head = ArrayHead::scalars(name, values.len());
         match values {
-            CellValues::Float64(values) => {
-                write_array(out, options.encoding, head, values.iter().copied())?;
-            }
-            CellValues::Int64(values) => {
-                write_array(out, options.encoding, head, values.iter().copied())?;
-            }
+            CellValues::Float64(values) => arrays.write(out, head, values.iter().copied())?,
+            CellValues::Int64(values) => arrays.write(out, head, values.iter().copied())?,
         }
     }
     writeln!(out, "</CellData>")

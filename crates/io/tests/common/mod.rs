@@ -5,9 +5,12 @@
 
 use std::collections::HashMap;
 
+use io::Encoding;
 use io::basemesh::{FaceMap, Topology, VertexId};
 use io::bezier_core::{BezierTriangle, MultiIndex};
 use io::glam::DVec3;
+
+pub(crate) const ENCODINGS: [Encoding; 3] = [Encoding::Binary, Encoding::Appended, Encoding::Ascii];
 
 pub(crate) fn octahedron() -> Topology {
     let faces =

@@ -1,23 +1,25 @@
 //! How long edges should be, from what was measured.
 
-use basemesh::{FaceId, FaceMap, TriMesh, VertexId, VertexMap};
+use basemesh::{FaceId, FaceMap, HalfedgeId, TriMesh, VertexId, VertexMap};
 
 use crate::repair::edges_to_split;
 use crate::surface::G1Surface;
 
 /// Where the deviation is aimed at, as part of the tolerance: faces scatter around it.
 const AIM: f64 = 0.35;
+/// Where it is aimed at once the mesh has its shape.
+const URGENT_AIM: f64 = 0.7;
 /// Order of the deviation in the edge length.
 const ORDER: f64 = 6.0;
 /// Most that one round changes a length.
 const SHRINK: f64 = 0.5;
 const GROW: f64 = 1.6;
-/// Largest turning of the surface along an edge that is wished for, in radians (34°): the guards of
-/// the remesher act at 50°.
-const TURNING: f64 = 0.6;
 /// What a refining round changes at least, and at most.
-const LEAST: f64 = 0.85;
+const LEAST: f64 = 0.9;
 const MOST: f64 = 0.6;
+/// By how much wishes grow from one refining round to the next: a face within the range of lengths
+/// that the remesher accepts would stay as it is.
+const STUBBORN: f64 = 0.95;
 
 /// A length for every vertex, so that all faces come close to the same deviation.
 pub(super) fn all_wishes(
@@ -27,11 +29,9 @@ pub(super) fn all_wishes(
     let topology = surface.mesh.topology();
     let factor = |face: FaceId| (AIM / excess[face]).powf(1.0 / ORDER).clamp(SHRINK, GROW).ln();
     Some(VertexMap::from_fn(topology.vertex_count(), |vertex| {
-        let faces = || topology.fan(vertex).map(|h| h.face());
+        let faces = || topology.fan(vertex).map(HalfedgeId::face);
         let mean = faces().map(factor).sum::<f64>() / faces().count() as f64;
-        let [low, high] = surface.jets[vertex].principal_curvatures();
-        let bend = low.abs().max(high.abs());
-        Some((length_at(&surface.mesh, vertex) * mean.exp()).min(TURNING / bend))
+        Some(length_at(&surface.mesh, vertex) * mean.exp())
     }))
 }
 
@@ -40,15 +40,17 @@ pub(super) fn all_wishes(
 pub(super) fn urgent_wishes(
     surface: &G1Surface,
     excess: &FaceMap<f64>,
+    round: usize,
 ) -> Option<VertexMap<Option<f64>>> {
     let topology = surface.mesh.topology();
+    let stubborn = STUBBORN.powi(i32::try_from(round).unwrap_or(i32::MAX));
     let mut factors: Vec<Option<f64>> = vec![None; topology.vertex_count()];
     let mut wish = |vertex: VertexId, factor: f64| {
         let slot = &mut factors[vertex.index()];
         *slot = Some(slot.map_or(factor, |other| other.min(factor)));
     };
     for (face, &excess) in excess.iter().filter(|(_, excess)| **excess > 1.0) {
-        let factor = (AIM / excess).powf(1.0 / ORDER).clamp(MOST, LEAST);
+        let factor = (URGENT_AIM / excess).powf(1.0 / ORDER).clamp(MOST, LEAST) * stubborn;
         topology.corners(face).into_iter().for_each(|vertex| wish(vertex, factor));
     }
     for edge in edges_to_split(&surface.mesh, &surface.jets, &surface.curves) {
@@ -69,7 +71,7 @@ fn length_at(mesh: &TriMesh, vertex: VertexId) -> f64 {
         let [p, q, r] = mesh.triangle(face);
         0.5 * (q - p).cross(r - p).length()
     };
-    let faces = || topology.fan(vertex).map(|h| h.face());
+    let faces = || topology.fan(vertex).map(HalfedgeId::face);
     let mean = faces().map(area).sum::<f64>() / faces().count() as f64;
     (mean * 4.0 / 3.0_f64.sqrt()).sqrt()
 }

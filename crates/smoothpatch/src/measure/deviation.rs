@@ -65,11 +65,21 @@ pub fn deviation(
     target: &dyn SurfaceTarget,
     diagonal: f64,
 ) -> (Deviation, FaceMap<FaceDeviation>) {
-    let coarse = lattice(GRID);
-    let mut faces =
-        FaceMap::from_fn(nets.len(), |face| face_deviation(&nets[face], target, &coarse));
+    let mut faces = face_deviations(nets, target, |_| None);
     let grid = settle(&mut faces, nets, target);
     (summarise(&faces, diagonal, grid), faces)
+}
+
+/// Figures of each face on the grid of 153 points, those that `known` returns as they are.
+pub(crate) fn face_deviations(
+    nets: &FaceMap<SepticTriangle>,
+    target: &dyn SurfaceTarget,
+    known: impl Fn(FaceId) -> Option<FaceDeviation> + Sync,
+) -> FaceMap<FaceDeviation> {
+    let grid = lattice(GRID);
+    FaceMap::from_fn(nets.len(), |face| {
+        known(face).unwrap_or_else(|| face_deviation(&nets[face], target, &grid))
+    })
 }
 
 fn lattice(divisions: usize) -> Vec<Barycentric> {
@@ -78,7 +88,7 @@ fn lattice(divisions: usize) -> Vec<Barycentric> {
 
 /// Doubles the divisions for the worst patches until the largest values settle; returns the last
 /// number of divisions.
-fn settle(
+pub(crate) fn settle(
     faces: &mut FaceMap<FaceDeviation>,
     nets: &FaceMap<SepticTriangle>,
     target: &dyn SurfaceTarget,

@@ -1,0 +1,158 @@
+//! `smoothpatch fit`: from a surface to files.
+
+mod outputs;
+mod report_file;
+mod summary;
+mod task;
+mod warnings;
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::{ArgGroup, Args, ValueEnum};
+use smoothpatch::implicit::Aabb;
+use smoothpatch::io::CellKind;
+use smoothpatch::{FieldSource, Method, report};
+
+use crate::arguments::EXIT_CODES;
+use crate::exit::{Outcome, complain};
+use crate::progress;
+use crate::stdout::print;
+use crate::surface::{SURFACE, SurfaceArguments};
+use crate::threads::ThreadArguments;
+use crate::values;
+use outputs::Outputs;
+use report_file::ReportFile;
+use task::Task;
+
+/// Fit a surface with G1 patches, measure the result and write it
+///
+/// The surface is the set of points where a function of x, y and z is zero; the function is negative
+/// inside. It comes from a scene file, has a name, or is typed as a formula. All its components in
+/// the region are fitted; it must be closed there.
+#[derive(Args)]
+#[command(
+    group = ArgGroup::new(SURFACE).required(true),
+    after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"),
+)]
+pub(crate) struct FitArguments {
+    /// A scene file (RON)
+    #[arg(value_name = "SCENE.ron", group = SURFACE)]
+    scene: Option<PathBuf>,
+
+    #[command(flatten)]
+    surface: SurfaceArguments,
+
+    /// The box to look in: two opposite corners [default: that of the scene or shape; searched for
+    /// a formula]
+    #[arg(long, value_name = "XMIN,YMIN,ZMIN,XMAX,YMAX,ZMAX", allow_hyphen_values = true)]
+    #[arg(value_parser = values::region)]
+    region: Option<Aabb>,
+
+    /// About how many patches to make, an even number [default: that of the scene, or 2000]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::faces)]
+    faces: Option<usize>,
+
+    /// A closed triangle mesh (OBJ) with its vertices on the surface; its faces become the patches
+    #[arg(long, value_name = "FILE.obj", conflicts_with = "region")]
+    base_mesh: Option<PathBuf>,
+
+    /// How free control points are chosen; both methods are exactly G1
+    #[arg(long, value_enum, default_value_t = MethodName::Refined)]
+    method: MethodName,
+
+    /// Where to write: .vtu for the patches, .obj for a triangulation; can be repeated
+    #[arg(short, long = "output", value_name = "FILE", required = true)]
+    outputs: Vec<PathBuf>,
+
+    /// Kind of cells in .vtu files; both hold the patches exactly, up to rounding for `lagrange`
+    #[arg(long, value_enum, default_value_t = CellName::Bezier)]
+    cells: CellName,
+
+    /// Each patch becomes N² triangles in .obj files
+    #[arg(long, value_name = "N", default_value = "8", value_parser = values::divisions)]
+    divisions: usize,
+
+    /// Also write everything that was measured, as JSON
+    #[arg(long, value_name = "FILE.json")]
+    report: Option<PathBuf>,
+
+    #[command(flatten)]
+    threads: ThreadArguments,
+
+    /// Print nothing but errors, not even warnings
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  smoothpatch fit fixtures/scenes/torus.ron -o torus.vtu
+  smoothpatch fit --shape deccube --faces 5000 -o deccube.vtu -o deccube.obj --report deccube.json
+  smoothpatch fit --formula \"x^4 + y^4 + z^4 - r^4\" --constant r=2 --faces 400 -o cube.vtu
+  smoothpatch fit --formula \"x^4 + y^4 + z^4 - 5*(x^2 + y^2 + z^2)\" --level -11.8 \\
+      --region -3,-3,-3,3,3,3 --faces 1600 --method published -o tangle.vtu
+  smoothpatch fit --shape torus --base-mesh torus.obj -o torus.vtu";
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MethodName {
+    /// Full order of approximation
+    Refined,
+    /// The scheme of Tong and Kim (2009)
+    Published,
+}
+
+impl From<MethodName> for Method {
+    fn from(name: MethodName) -> Self {
+        match name {
+            MethodName::Refined => Self::Refined,
+            MethodName::Published => Self::Published,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum CellName {
+    /// Control points of Bézier triangles
+    Bezier,
+    /// Points on the patches, for viewers without Bézier cells
+    Lagrange,
+}
+
+impl From<CellName> for CellKind {
+    fn from(name: CellName) -> Self {
+        match name {
+            CellName::Bezier => Self::Bezier,
+            CellName::Lagrange => Self::Lagrange,
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &FitArguments) -> anyhow::Result<Outcome> {
+    let outputs = Outputs::new(arguments)?;
+    outputs.check_places()?;
+    let task = Task::new(arguments)?;
+    outputs.check_distinct(task.files_read())?;
+    arguments.threads.apply()?;
+
+    let mut progress = progress::listener(arguments.quiet);
+    let surface = task.fit(&mut *progress)?;
+    let diagonal = surface.mesh.diagonal();
+    let source = FieldSource::new(&*task.field, diagonal, task.settings.projection);
+    let (report, faces) = report(&surface, &source, &mut *progress);
+    drop(progress);
+
+    let start = Instant::now();
+    let mut written = outputs.write(&surface, &faces)?;
+    if let Some(path) = &arguments.report {
+        written.push(ReportFile::new(&task, &report, &written).write(path)?);
+    }
+    if !arguments.quiet {
+        let seconds = start.elapsed().as_secs_f64();
+        print(&summary::summary(&task, &report, &written, seconds))?;
+        for warning in warnings::warnings(&report) {
+            complain(&format!("warning: {warning}"));
+        }
+    }
+    Ok(Outcome::Success)
+}

@@ -1,0 +1,60 @@
+//! The table at the end.
+
+use smoothpatch::{Report, Stage};
+
+use super::outputs::Written;
+use super::task::{BaseMesh, Task, method_name};
+use crate::table::{Table, bytes, degrees, of_diagonal, yes_no};
+use crate::values::region_text;
+
+pub(crate) fn summary(
+    task: &Task,
+    report: &Report,
+    written: &[Written],
+    seconds_writing: f64,
+) -> String {
+    let mut table = Table::default();
+    origin(&mut table, task);
+    quality(&mut table, report);
+    table.gap();
+    for stage in Stage::ALL {
+        if let Some(seconds) = report.seconds.get(stage.name()) {
+            table.row(stage.name(), format!("{seconds:.3} s"));
+        }
+    }
+    table.row("write", format!("{seconds_writing:.3} s"));
+    let total = report.seconds.values().sum::<f64>() + seconds_writing;
+    table.row("total", format!("{total:.3} s"));
+    table.gap();
+    for Written { file, bytes: size } in written {
+        table.row("wrote", format!("{} ({})", file.display(), bytes(*size)));
+    }
+    format!("{}, {} method\n{table}", task.chosen.scene.name, method_name(task.method))
+}
+
+fn origin(table: &mut Table, task: &Task) {
+    match &task.base {
+        BaseMesh::Made { region, .. } => table.row("region", region_text(region)),
+        BaseMesh::Given { file, .. } => table.row("base mesh", file.display()),
+    }
+}
+
+fn quality(table: &mut Table, report: &Report) {
+    let (joined, deviation) = (&report.continuity, &report.deviation);
+    table.row("faces", joined.faces);
+    table.row("Euler characteristic", joined.euler_characteristic);
+    table.row("components", joined.components);
+    table.row("closed", yes_no(joined.closed));
+    table.row("G1 angle", degrees(joined.g1_angle_deg));
+    table.row("max deviation", of_diagonal(deviation.max));
+    table.row("RMS deviation", of_diagonal(deviation.rms));
+    table.row("max normal error", degrees(deviation.max_normal_deg));
+    if deviation.failed_samples > 0 {
+        table.row("samples without foot", deviation.failed_samples);
+    }
+    table.row("folded patches", deviation.folded.len());
+    table.row("fallback curves", report.fallback_edges.len());
+    if !report.retreats.is_empty() {
+        table.row("patches taken back", report.retreats.len());
+    }
+}

@@ -1,0 +1,149 @@
+//! What is to be fitted and how: options and scene file put together.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{anyhow, bail};
+use smoothpatch::basemesh::{PolygonizeError, TriMesh};
+use smoothpatch::implicit::{Aabb, ImplicitSurface};
+use smoothpatch::io::read_obj_file;
+use smoothpatch::scene::{base_mesh_of, field_of, region_of};
+use smoothpatch::{
+    FitError, G1Surface, Method, Progress, Settings, find_region, fit, fit_base_mesh,
+};
+
+use super::FitArguments;
+use crate::surface::ChosenScene;
+use crate::values::region_text;
+
+/// One surface and everything that decides how it is fitted.
+pub(crate) struct Task {
+    pub(crate) chosen: ChosenScene,
+    pub(crate) field: Box<dyn ImplicitSurface>,
+    pub(crate) base: BaseMesh,
+    pub(crate) method: Method,
+    pub(crate) settings: Settings,
+}
+
+/// Where the base mesh comes from.
+pub(crate) enum BaseMesh {
+    /// Made by polygonizing and simplifying.
+    Made { region: Aabb, faces: usize },
+    /// Read from a file.
+    Given { file: PathBuf, mesh: TriMesh },
+}
+
+impl Task {
+    pub(crate) fn new(arguments: &FitArguments) -> anyhow::Result<Self> {
+        let chosen = arguments
+            .surface
+            .scene(arguments.scene.as_deref())?
+            .ok_or_else(|| anyhow!("no surface is given"))?;
+        let field = field_of(&chosen.scene.surface)?;
+        let base = match given_mesh(arguments, &chosen)? {
+            Some((file, mesh)) => BaseMesh::Given { file, mesh },
+            None => BaseMesh::Made {
+                region: region(arguments, &chosen, &*field)?,
+                faces: arguments.faces.unwrap_or(chosen.scene.faces),
+            },
+        };
+        let method = arguments.method.into();
+        let settings = Settings::with_faces(base.faces()).with_method(method);
+        Ok(Self { chosen, field, base, method, settings })
+    }
+
+    /// The whole pipeline.
+    pub(crate) fn fit(&self, progress: &mut dyn Progress) -> anyhow::Result<G1Surface> {
+        let fitted = match &self.base {
+            BaseMesh::Made { region, .. } => fit(&*self.field, region, &self.settings, progress),
+            BaseMesh::Given { mesh, .. } => {
+                fit_base_mesh(&*self.field, mesh.clone(), &self.settings, progress)
+            }
+        };
+        fitted.map_err(|error| match error {
+            FitError::Polygonize(error) => explain(&error),
+            other => other.into(),
+        })
+    }
+
+    /// Files that must not be overwritten with results.
+    pub(crate) fn files_read(&self) -> Vec<&Path> {
+        let mesh = match &self.base {
+            BaseMesh::Given { file, .. } => Some(file.as_path()),
+            BaseMesh::Made { .. } => None,
+        };
+        self.chosen.file.as_deref().into_iter().chain(mesh).collect()
+    }
+}
+
+/// The word for a method in options, tables and reports.
+pub(crate) fn method_name(method: Method) -> &'static str {
+    match method {
+        Method::Published => "published",
+        _ => "refined",
+    }
+}
+
+impl BaseMesh {
+    fn faces(&self) -> usize {
+        match self {
+            Self::Made { faces, .. } => *faces,
+            Self::Given { mesh, .. } => mesh.topology().face_count(),
+        }
+    }
+}
+
+/// The base mesh that the options or the scene name, unless a region is given to look in.
+fn given_mesh(
+    arguments: &FitArguments,
+    chosen: &ChosenScene,
+) -> anyhow::Result<Option<(PathBuf, TriMesh)>> {
+    let given = match (&arguments.base_mesh, &chosen.file) {
+        (Some(file), _) => Some((file.clone(), read_obj_file(file)?)),
+        (None, Some(scene_file)) => {
+            chosen.scene.base_mesh_beside(scene_file).zip(base_mesh_of(&chosen.scene, scene_file)?)
+        }
+        (None, None) => None,
+    };
+    let Some((file, mesh)) = given else { return Ok(None) };
+    let faces = mesh.topology().face_count();
+    if let Some(wanted) = arguments.faces.filter(|&wanted| wanted != faces) {
+        bail!(
+            "{}: the base mesh has {faces} faces, which become the patches, but --faces asks for \
+             {wanted}; leave one of them out",
+            file.display()
+        );
+    }
+    if arguments.region.is_some() {
+        bail!("{}: with a base mesh no region is searched; leave --region out", file.display());
+    }
+    Ok(Some((file, mesh)))
+}
+
+fn region(
+    arguments: &FitArguments,
+    chosen: &ChosenScene,
+    field: &dyn ImplicitSurface,
+) -> anyhow::Result<Aabb> {
+    if let Some(region) = arguments.region {
+        return Ok(region);
+    }
+    if let Some(region) = region_of(&chosen.scene)? {
+        return Ok(region);
+    }
+    find_region(field).map_err(|error| {
+        anyhow!(
+            "no region is given, and the search around the origin found none (--region sets it): {}",
+            explain(&error)
+        )
+    })
+}
+
+/// The message, with what to type if another region would help.
+fn explain(error: &PolygonizeError) -> anyhow::Error {
+    match error {
+        PolygonizeError::LeavesRegion { suggested, .. } => {
+            anyhow!("{error}\n  try --region {}", region_text(suggested))
+        }
+        _ => anyhow!("{error}"),
+    }
+}

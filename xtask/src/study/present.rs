@@ -1,0 +1,90 @@
+//! The tables of the study.
+
+use super::checks::{Check, name, order};
+use super::cost::Cost;
+use super::levels::{Errors, Level, Variant};
+use super::{Convergence, Study};
+use crate::table::{Table, scientific};
+
+/// One line per surface and level; orders in brackets.
+pub(super) fn convergence(family: &Convergence) -> Table {
+    let mut table =
+        Table::new(&["surface", "faces", "max", "RMS", "normal °", "folds", "retreats"]);
+    for variant in [
+        Variant::Curves,
+        Variant::PublishedG0,
+        Variant::Published,
+        Variant::Unrefined,
+        Variant::RefinedCurves,
+        Variant::Refined,
+        Variant::Interpolant4,
+        Variant::Interpolant7,
+    ] {
+        let mut before: Option<&Errors> = None;
+        for Level { faces, errors, .. } in &family.levels {
+            let Some(errors) = errors.get(&variant) else { continue };
+            let cell = |figure: fn(&Errors) -> Option<f64>| {
+                figure(errors).map_or(String::new(), |x| with_order(before.and_then(figure), x))
+            };
+            table.add(vec![
+                name(variant).to_owned(),
+                faces.to_string(),
+                cell(|errors| Some(errors.max)),
+                cell(|errors| errors.rms),
+                cell(|errors| errors.normal_deg),
+                errors.folds.to_string(),
+                errors.retreats.to_string(),
+            ]);
+            before = Some(errors);
+        }
+    }
+    table
+}
+
+fn with_order(before: Option<f64>, x: f64) -> String {
+    let order = before.map(|before| format!(" ({:.1})", order(before, x)));
+    scientific(x) + &order.unwrap_or_default()
+}
+
+pub(super) fn cost(costs: &[Cost]) -> Table {
+    let mut table = Table::new(&["method", "faces", "s", "µs per face"]);
+    for cost in costs {
+        table.add(vec![
+            format!("{:?}", cost.method).to_lowercase(),
+            cost.faces.to_string(),
+            format!("{:.3}", cost.seconds),
+            format!("{:.1}", cost.microseconds_per_face),
+        ]);
+    }
+    table
+}
+
+pub(super) fn checks(checks: &[Check]) -> Table {
+    let mut table = Table::new(&["check", "measured", "bound", ""]);
+    for check in checks {
+        let value = if (0.01..100.0).contains(&check.value) {
+            format!("{:.2}", check.value)
+        } else {
+            scientific(check.value)
+        };
+        let verdict = if check.holds { "pass" } else { "FAIL" };
+        table.add(vec![check.what.clone(), value, check.bound.clone(), verdict.into()]);
+    }
+    table
+}
+
+/// All tables as a Markdown page.
+pub(super) fn page(study: &Study) -> String {
+    let mut page = String::from(
+        "# Convergence and cost\n\nWritten by `cargo xtask verify --full`. Distances over the \
+         diagonal of the bounding box; observed orders in brackets, edges halve from line to \
+         line.\n",
+    );
+    for family in &study.convergence {
+        let Convergence { family: name, formula, .. } = family;
+        page += &format!("\n## {name}: `{formula}`\n\n{}", convergence(family).markdown());
+    }
+    page += &format!("\n## Cost of the whole pipeline, one thread\n\n{}", cost(&study.cost).markdown());
+    page += &format!("\n## Checks\n\n{}", checks(&study.checks).markdown());
+    page
+}
