@@ -35,7 +35,9 @@ struct Study {
 pub(crate) fn run() -> Result<bool> {
     let mut convergence = Vec::new();
     for family in families::all()? {
-        if std::env::var("JF").is_ok_and(|f| !f.contains(family.name)) { continue; }
+        if std::env::var("JF").is_ok_and(|f| !f.contains(family.name)) {
+            continue;
+        }
         let levels = family.meshes.iter().map(|mesh| levels::measure(&family, mesh.clone()));
         let levels = levels.collect::<Result<_>>().with_context(|| family.name)?;
         let Family { name, formula, .. } = family;

@@ -62,9 +62,6 @@ mod tests {
         table.add(vec!["a".into(), scientific(1.234e-5)]);
         table.add(vec!["b".into(), scientific(0.0)]);
         assert_eq!(table.text(), "scene       °\na      1.2e-5\nb           0\n");
-        assert_eq!(
-            table.markdown(),
-            "| scene | ° |\n| --- | ---: |\n| a | 1.2e-5 |\n| b | 0 |\n"
-        );
+        assert_eq!(table.markdown(), "| scene | ° |\n| --- | ---: |\n| a | 1.2e-5 |\n| b | 0 |\n");
     }
 }

@@ -9,6 +9,7 @@ use std::ops::{Index, IndexMut};
 use glam::DVec3;
 
 use crate::coefficient::Coefficient;
+use crate::local_edge::Corner;
 use crate::multi_index::MultiIndex;
 
 /// A polynomial patch (or function) over a triangle in Bernstein form, with `P` control points.
@@ -60,6 +61,19 @@ impl<V: Coefficient, const P: usize> BezierTriangle<V, P> {
     #[must_use]
     pub fn from_fn(mut f: impl FnMut(MultiIndex) -> V) -> Self {
         Self { net: std::array::from_fn(|rank| f(MultiIndex::at_rank(Self::DEGREE, rank))) }
+    }
+
+    /// The same patch with `corner` as its first corner.
+    #[must_use]
+    pub fn starting_at(&self, corner: Corner) -> Self {
+        Self::from_fn(|MultiIndex { i, j, k }| {
+            let m = match corner {
+                Corner::First => MultiIndex::new(i, j, k),
+                Corner::Second => MultiIndex::new(k, i, j),
+                Corner::Third => MultiIndex::new(j, k, i),
+            };
+            self[m]
+        })
     }
 
     /// Control points by rank.

@@ -6,7 +6,7 @@ use bezier_core::{SepticTriangle, SurfaceJet};
 use crate::earlier::{Earlier, Nothing};
 use crate::edge_system::{EdgeRows, EdgeSystem};
 use crate::error::JoinError;
-use crate::faces::{corner_halfedges, local_edge};
+use crate::faces::{back_to_face, corner_halfedges, first_corner, local_edge};
 use crate::interior;
 use crate::network::CurveNetwork;
 use crate::plan::{Plan, Rows};
@@ -87,6 +87,7 @@ pub fn join(
 /// # Panics
 ///
 /// As [`join`].
+#[allow(clippy::too_many_arguments, reason = "the arguments of join and one more")]
 pub fn join_reusing(
     mesh: &TriMesh,
     jets: &VertexMap<SurfaceJet>,
@@ -122,7 +123,11 @@ pub fn join_reusing(
     })?;
     let joined = set_rows(mesh, twisted, &edges);
     let nets = joined.map(|face, net| {
-        let chosen = || interior::choose(net, plan.inner_points[face], target);
+        let chosen = || {
+            let first = first_corner(topology, face);
+            interior::choose(&net.starting_at(first), plan.inner_points[face], target)
+                .starting_at(back_to_face(first))
+        };
         earlier.patch(face).unwrap_or_else(chosen)
     });
     Ok(SmoothPatches { nets, weights: edges.map(|_, edge| edge.weights) })

@@ -7,10 +7,13 @@ use std::sync::LazyLock;
 
 use basemesh::{FaceId, FaceMap, Foot, SurfaceTarget, TriMesh};
 use bezier_core::glam::DVec3;
-use bezier_core::{BezierTriangle, LocalEdge, MultiIndex, QuarticTriangle, SepticTriangle};
+use bezier_core::{
+    BezierTriangle, Corner, LocalEdge, MultiIndex, QuarticCurve, QuarticTriangle, SepticCurve,
+    SepticTriangle,
+};
 
 use crate::earlier::{Earlier, Nothing};
-use crate::faces::{corner_halfedges, is_inner};
+use crate::faces::{back_to_face, corner_halfedges, first_corner, is_inner};
 use crate::network::CurveNetwork;
 use crate::plan::{Fill, Plan};
 use crate::samples::{NetFit, SAMPLES, basis_column, parameters, point_to_plane};
@@ -67,11 +70,14 @@ pub fn fill_reusing(
         if let Some(known) = earlier.positional(face) {
             return known;
         }
-        let (samples, failed_feet) = samples(mesh, target, face);
+        let first = first_corner(mesh.topology(), face);
+        let sides = Sides::new(mesh, network, face, first);
+        let (samples, failed_feet) = samples(&sides, target);
         let net = match plan.fill[face] {
-            Fill::Septic => septic(mesh, network, face, &samples),
-            Fill::Quartic => quartic(mesh, network, target, face, &samples),
+            Fill::Septic => septic(&sides, &samples),
+            Fill::Quartic => quartic(&sides, &samples, target),
         };
+        let net = net.starting_at(back_to_face(first));
         PositionalPatch { net, failed_feet }
     });
     PositionalPatches {
@@ -80,9 +86,33 @@ pub fn fill_reusing(
     }
 }
 
+/// The boundary of a face, from its lowest vertex.
+struct Sides {
+    quartic: [QuarticCurve; 3],
+    septic: [SepticCurve; 3],
+}
+
+impl Sides {
+    fn new(mesh: &TriMesh, network: &CurveNetwork, face: FaceId, first: Corner) -> Self {
+        let mut halfedges = corner_halfedges(face);
+        halfedges.rotate_left(first.index());
+        Self {
+            quartic: halfedges.map(|h| network.along(mesh.topology(), h)),
+            septic: halfedges.map(|h| network.elevated_along(mesh.topology(), h)),
+        }
+    }
+
+    /// Writes the three boundary curves.
+    fn bound(&self, net: &mut SepticTriangle) {
+        for (edge, curve) in LocalEdge::ALL.into_iter().zip(&self.septic) {
+            net.set_boundary(edge, curve);
+        }
+    }
+}
+
 /// Feet of the samples of the flat triangle, and how many had none.
-fn samples(mesh: &TriMesh, target: &dyn SurfaceTarget, face: FaceId) -> ([DVec3; SAMPLES], usize) {
-    let [a, b, c] = mesh.triangle(face);
+fn samples(sides: &Sides, target: &dyn SurfaceTarget) -> ([DVec3; SAMPLES], usize) {
+    let [a, b, c] = sides.quartic.map(|curve| curve.points[0]);
     let flat = parameters().map(|at| a * at.u + b * at.v + c * at.w);
     let mut feet: [Option<Foot>; SAMPLES] = [None; SAMPLES];
     target.feet(&flat, &mut feet);
@@ -90,15 +120,10 @@ fn samples(mesh: &TriMesh, target: &dyn SurfaceTarget, face: FaceId) -> ([DVec3;
     (std::array::from_fn(|j| feet[j].map_or(flat[j], |foot| foot.point)), failed)
 }
 
-fn septic(
-    mesh: &TriMesh,
-    network: &CurveNetwork,
-    face: FaceId,
-    samples: &[DVec3; SAMPLES],
-) -> SepticTriangle {
+fn septic(sides: &Sides, samples: &[DVec3; SAMPLES]) -> SepticTriangle {
     static FIT: LazyLock<NetFit<36>> = LazyLock::new(|| NetFit::new(is_inner));
     let mut net = BezierTriangle::new([DVec3::ZERO; 36]);
-    set_boundary(&mut net, mesh, network, face);
+    sides.bound(&mut net);
     FIT.apply(&mut net, samples);
     net
 }
@@ -111,18 +136,16 @@ const QUARTIC_ROUNDS: usize = 2;
 const QUARTIC_DAMPING: f64 = 0.02 * 0.02;
 
 fn quartic(
-    mesh: &TriMesh,
-    network: &CurveNetwork,
-    target: &dyn SurfaceTarget,
-    face: FaceId,
+    sides: &Sides,
     samples: &[DVec3; SAMPLES],
+    target: &dyn SurfaceTarget,
 ) -> SepticTriangle {
     static FIT: LazyLock<NetFit<15>> = LazyLock::new(|| NetFit::new(is_inner));
     static COLUMNS: LazyLock<[[f64; SAMPLES]; 3]> =
         LazyLock::new(|| QUARTIC_INNER.map(basis_column::<15>));
     let mut net: QuarticTriangle = BezierTriangle::new([DVec3::ZERO; 15]);
-    for (edge, h) in LocalEdge::ALL.into_iter().zip(corner_halfedges(face)) {
-        net.set_boundary(edge, &network.along(mesh.topology(), h));
+    for (edge, curve) in LocalEdge::ALL.into_iter().zip(&sides.quartic) {
+        net.set_boundary(edge, curve);
     }
     FIT.apply(&mut net, samples);
     for _ in 0..QUARTIC_ROUNDS {
@@ -131,13 +154,6 @@ fn quartic(
     }
     let mut elevated = net.elevate_to::<36>();
     // the same bits in both faces of an edge, which elevation in another order would not give
-    set_boundary(&mut elevated, mesh, network, face);
+    sides.bound(&mut elevated);
     elevated
-}
-
-/// Writes the three boundary curves of a face.
-fn set_boundary(net: &mut SepticTriangle, mesh: &TriMesh, network: &CurveNetwork, face: FaceId) {
-    for (edge, h) in LocalEdge::ALL.into_iter().zip(corner_halfedges(face)) {
-        net.set_boundary(edge, &network.elevated_along(mesh.topology(), h));
-    }
 }

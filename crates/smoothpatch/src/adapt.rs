@@ -38,6 +38,26 @@ pub enum Distance {
     Absolute(f64),
 }
 
+/// Smallest distance that can be asked for, in diagonals: a hundred times what feet are off.
+const SMALLEST: f64 = 1e-11;
+
+impl Tolerance {
+    /// Whether both numbers are positive and can be measured.
+    fn check(&self) -> Result<(), FitError> {
+        let (value, smallest) = match self.distance {
+            Distance::Relative(value) => (value, SMALLEST),
+            Distance::Absolute(value) => (value, 0.0),
+        };
+        if !(value.is_finite() && value > 0.0 && value >= smallest) {
+            return Err(FitError::DistanceTolerance { value, smallest });
+        }
+        match self.normal_deg.filter(|degrees| !(degrees.is_finite() && *degrees > 0.0)) {
+            Some(degrees) => Err(FitError::NormalTolerance { degrees }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// How an accuracy was reached.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Adaptation {
@@ -83,11 +103,17 @@ pub fn fit_to_tolerance(
     settings: &Settings,
     progress: &mut dyn Progress,
 ) -> Result<G1Surface, FitError> {
+    tolerance.check()?;
     let mut clock = Clock::new(progress);
     let dense =
         clock.run(Stage::Polygonize, COARSE, || polygonize_to_faces(field, region, COARSE))?;
     let polygonized = Polygonized::from(&dense);
     let length = dense.mesh.diagonal();
+    if let Distance::Absolute(value) = tolerance.distance
+        && value < SMALLEST * length
+    {
+        return Err(FitError::DistanceTolerance { value, smallest: SMALLEST * length });
+    }
     let source = FieldSource::new(field, length, settings.projection);
     let first = clock.run(Stage::Simplify, dense.mesh.topology().face_count(), || {
         let target = FieldTarget::new(field, length, settings.projection);

@@ -22,6 +22,20 @@ pub enum FitError {
     /// The base mesh could not be refined.
     #[error(transparent)]
     Refine(#[from] SplitError),
+    /// Too small a distance is asked for, or no distance at all.
+    #[error("the tolerance {value} is not a number of at least {smallest:e}")]
+    DistanceTolerance {
+        /// What was asked for.
+        value: f64,
+        /// The smallest that can be measured here, in the same unit.
+        smallest: f64,
+    },
+    /// The angle asked for is not a positive number.
+    #[error("the normal tolerance {degrees}° is not a positive number")]
+    NormalTolerance {
+        /// What was asked for.
+        degrees: f64,
+    },
     /// The surface has no normal or no curvature at a vertex.
     #[error(
         "the surface is singular at vertex {vertex}, {at}: its gradient vanishes there; \

@@ -5,6 +5,6 @@ mod deviation;
 mod interpolation;
 
 pub use continuity::{Continuity, SEAM_SAMPLES, continuity, seam};
-pub use deviation::{Deviation, FaceDeviation, GRID, deviation, folded_patches};
+pub use deviation::{Deviation, FaceDeviation, GRID, deviation, deviation_on_grid, folded_patches};
 pub(crate) use deviation::{face_deviations, settle};
 pub use interpolation::{Interpolation, interpolation};

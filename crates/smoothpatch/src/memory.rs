@@ -130,3 +130,57 @@ impl Earlier for Recall<'_> {
         self.memory.patches.get(&self.keys.of_face(&self.keys.rings, face)).map(|known| known.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use basemesh::{EdgeId, RemeshSettings, SplitError, split_edges};
+    use basemesh::{FieldTarget, SimplifySettings, polygonize_to_faces, remesh, simplify};
+    use implicit::NamedShape;
+
+    use super::*;
+    use crate::pipeline::{fit_again, fit_mesh};
+    use crate::progress::{Clock, Silent};
+    use crate::{FieldSource, Settings};
+
+    /// After local changes, what is remembered together with what is fitted anew is the same, bit
+    /// for bit, as a fit of the whole changed mesh.
+    #[test]
+    fn local_fits_give_the_bits_of_a_whole_fit() {
+        let shape = NamedShape::find("double-torus").expect("a shape");
+        let field = shape.field();
+        let settings = Settings::with_faces(800);
+        let dense = polygonize_to_faces(&*field, &shape.region, 8000).expect("a mesh").mesh;
+        let length = dense.diagonal();
+        let target = FieldTarget::new(&*field, length, settings.projection);
+        let base = simplify(dense, &target, &SimplifySettings::to_faces(800)).expect("a base mesh");
+        let source = FieldSource::new(&*field, length, settings.projection);
+        let mut silent = Silent;
+        let mut clock = Clock::new(&mut silent);
+        let mut memory = Memory::default();
+        fit_again(base.mesh.clone(), &source, &settings, &mut memory, &mut clock).expect("a fit");
+
+        let split = |mesh: &TriMesh| -> Result<TriMesh, SplitError> {
+            split_edges(mesh, &source, &[10, 400, 700].map(EdgeId::new))
+        };
+        // collapses as well: vertices take the place of others
+        let remeshed = |mesh: &TriMesh| {
+            let lengths = VertexMap::from_fn(mesh.topology().vertex_count(), |vertex| {
+                (vertex.index() % 50 == 0).then_some(0.08 * length)
+            });
+            remesh(mesh, &source, &lengths, &RemeshSettings::default()).expect("a mesh").mesh
+        };
+        let changed = remeshed(&split(&base.mesh).expect("splits"));
+        let keys = Keys::new(&changed);
+        let recall = Recall { memory: &memory, keys: &keys };
+        let known = changed.topology().faces().filter(|&face| recall.patch(face).is_some()).count();
+        assert!(known > 100, "only {known} patches are remembered");
+        assert!(known < changed.topology().face_count(), "nothing changed");
+
+        let (local, _) =
+            fit_again(changed.clone(), &source, &settings, &mut memory, &mut clock).expect("a fit");
+        let whole = fit_mesh(changed, &source, &settings, 0, &mut clock).expect("a fit");
+        assert!(whole.retreats.as_slice().iter().all(Option::is_none), "the guard interfered");
+        assert_eq!(local.patches.weights, whole.patches.weights, "weights");
+        assert_eq!(local.patches.nets, whole.patches.nets, "nets");
+    }
+}

@@ -52,8 +52,21 @@ fn disturbance() -> impl Strategy<Value = Disturbance> {
     (prop::collection::vec(edit, 0..80), 0.0..0.15, any::<u64>())
 }
 
-fn disturbed(mesh: TriMesh, (edits, jitter, seed): &Disturbance) -> TriMesh {
-    jittered(&apply_edits(mesh, edits, EDITED_QUALITY), *jitter, *seed)
+/// `regular` with the changes made and its vertices moved by `onto`; a mesh that is not usable is
+/// made again with half the changes, up to five times.
+fn disturbed(
+    regular: &TriMesh,
+    (edits, jitter, seed): &Disturbance,
+    field: &dyn ImplicitSurface,
+    onto: impl Fn(&TriMesh) -> Option<TriMesh>,
+) -> Option<TriMesh> {
+    (0..6_u32)
+        .map(|halvings| edits.len() >> halvings)
+        .zip([1.0, 0.5, 0.25, 0.125, 0.0625, 0.0])
+        .find_map(|(count, part)| {
+            let edited = apply_edits(regular.clone(), &edits[..count], EDITED_QUALITY);
+            onto(&jittered(&edited, jitter * part, *seed)).filter(|mesh| is_usable(mesh, field))
+        })
 }
 
 fn is_usable(mesh: &TriMesh, field: &dyn ImplicitSurface) -> bool {
@@ -92,50 +105,39 @@ fn check(field: &dyn ImplicitSurface, mesh: &TriMesh) -> TestCaseResult {
         let defects = interpolation(&surface);
         prop_assert!(defects.position <= 0.0, "{method:?}: {defects:?}");
         prop_assert!(defects.normal.max(defects.second_form) <= 1e-10, "{method:?}: {defects:?}");
-        if std::env::var("SHOW").is_ok() {
-            println!(
-                "{} {method:?} {residual:e} {:e} {:e} {:e}",
-                mesh.topology().face_count(),
-                joined.g1_angle_deg,
-                defects.normal,
-                defects.second_form
-            );
-        }
     }
     Ok(())
 }
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 16,
+        cases: 10,
         failure_persistence: None,
         ..ProptestConfig::default()
     })]
 
     #[test]
     fn disturbed_ellipsoids(field in blob(), change in disturbance()) {
-        let sphere = disturbed(icosphere(2), &change);
-        let mesh = radially_on_surface(&sphere, &field, 4.0);
-        prop_assume!(is_usable(&mesh, &field));
-        check(&field, &mesh)?;
+        let onto = |mesh: &TriMesh| Some(radially_on_surface(mesh, &field, 4.0));
+        let mesh = disturbed(&icosphere(2), &change, &field, onto);
+        prop_assume!(mesh.is_some());
+        check(&field, &mesh.unwrap())?;
     }
 
     #[test]
     fn blended_balls(field in blend(), change in disturbance()) {
-        let sphere = disturbed(icosphere(2), &change);
-        let mesh = radially_on_surface(&sphere, &field, 4.0);
-        prop_assume!(is_usable(&mesh, &field));
-        check(&field, &mesh)?;
+        let onto = |mesh: &TriMesh| Some(radially_on_surface(mesh, &field, 4.0));
+        let mesh = disturbed(&icosphere(2), &change, &field, onto);
+        prop_assume!(mesh.is_some());
+        check(&field, &mesh.unwrap())?;
     }
 
     #[test]
-    fn tori(minor_radius in 0.5..1.4, change in disturbance()) {
+    fn tori(minor_radius in 0.7..1.3, change in disturbance()) {
         let field = Torus { major_radius: 3.0, minor_radius };
-        let grid = torus_grid([3.0, minor_radius], 18, 10);
-        let mesh = on_surface(&disturbed(grid, &change), &field);
+        let grid = torus_grid([3.0, minor_radius], 20, 10);
+        let mesh = disturbed(&grid, &change, &field, |mesh| on_surface(mesh, &field));
         prop_assume!(mesh.is_some());
-        let mesh = mesh.unwrap();
-        prop_assume!(is_usable(&mesh, &field));
-        check(&field, &mesh)?;
+        check(&field, &mesh.unwrap())?;
     }
 }

@@ -1,12 +1,11 @@
-//! An accuracy is met as measured independently, with few faces, and the local fits along the way
-//! give the same surface as a fit of the final base mesh from nothing.
+//! An accuracy is met as measured independently, with few faces.
 
 use smoothpatch::basemesh::{Foot, SurfaceTarget};
 use smoothpatch::bezier_core::Barycentric;
 use smoothpatch::implicit::{ImplicitSurface, NamedShape};
 use smoothpatch::measure::continuity;
 use smoothpatch::{
-    Distance, FieldSource, G1Surface, Settings, Silent, Tolerance, fit_base_mesh, fit_to_tolerance,
+    Distance, FieldSource, G1Surface, Settings, Silent, Tolerance, fit_to_tolerance,
 };
 
 fn fit(
@@ -69,26 +68,19 @@ fn normal_tolerance_is_met() {
 }
 
 #[test]
-fn local_fits_give_the_bits_of_a_whole_fit() {
-    for name in ["torus", "deccube"] {
-        let (field, adapted) = fit(name, 1e-5, None);
+fn tolerances_that_mean_nothing_are_refused() {
+    let shape = NamedShape::find("sphere").unwrap();
+    for (distance, normal_deg) in [
+        (Distance::Relative(1e-18), None),
+        (Distance::Relative(f64::NAN), None),
+        (Distance::Absolute(-1.0), None),
+        (Distance::Absolute(1e-18), None),
+        (Distance::Relative(1e-5), Some(0.0)),
+    ] {
+        let tolerance = Tolerance { distance, normal_deg };
         let settings = Settings::with_faces(0);
-        let mesh = adapted.mesh.clone();
-        let whole = fit_base_mesh(&*field, mesh, &settings, &mut Silent).unwrap();
-        let differing = adapted
-            .patches
-            .nets
-            .as_slice()
-            .iter()
-            .zip(whole.patches.nets.as_slice())
-            .filter(|(a, b)| a != b)
-            .count();
-        assert_eq!(differing, 0, "{name}: patches of {}", whole.patches.nets.len());
+        let refused =
+            fit_to_tolerance(&*shape.field(), &shape.region, &tolerance, &settings, &mut Silent);
+        assert!(refused.is_err(), "{tolerance:?}");
     }
-}
-
-#[test]
-fn an_impossible_tolerance_is_reported() {
-    let (_, surface) = fit("sphere", 1e-18, None);
-    assert!(!surface.origin.adaptation.unwrap().met, "1e-18 cannot be measured in f64");
 }

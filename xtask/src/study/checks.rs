@@ -125,8 +125,7 @@ mod tests {
     use super::*;
 
     fn level(max: f64, folds: usize) -> Level {
-        let errors =
-            Errors { max, rms: None, normal_deg: Some(16.0 * max), folds, retreats: 0 };
+        let errors = Errors { max, rms: None, normal_deg: Some(16.0 * max), folds, retreats: 0 };
         let all = [Variant::Unrefined, Variant::Refined, Variant::Published];
         Level {
             faces: 80,

@@ -6,7 +6,9 @@
 use anyhow::{Context, Result};
 use smoothpatch::Settings;
 use smoothpatch::basemesh::glam::DVec3;
-use smoothpatch::basemesh::{VertexMap, FieldTarget, SimplifySettings, TriMesh, polygonize_to_faces, simplify};
+use smoothpatch::basemesh::{
+    FieldTarget, SimplifySettings, TriMesh, VertexMap, polygonize_to_faces, simplify,
+};
 use smoothpatch::implicit::{Formula, ImplicitSurface, NamedShape};
 use testkit::meshes::{icosphere, jittered, on_surface, radially_on_surface, refined, torus_grid};
 
@@ -22,7 +24,9 @@ pub(super) struct Family {
     pub(super) meshes: Vec<TriMesh>,
 }
 
-fn seed() -> u64 { std::env::var("JS").ok().and_then(|x| x.parse().ok()).unwrap_or(SEED) }
+fn seed() -> u64 {
+    std::env::var("JS").ok().and_then(|x| x.parse().ok()).unwrap_or(SEED)
+}
 pub(super) fn all() -> Result<Vec<Family>> {
     Ok(vec![
         sphere()?,
@@ -56,16 +60,22 @@ fn sphere() -> Result<Family> {
 fn jitter(mesh: &TriMesh, seed: u64) -> Result<TriMesh> {
     let fixed = std::env::var("JM").is_ok_and(|m| m == "fixed");
     let amount: f64 = std::env::var("JA").ok().and_then(|x| x.parse().ok()).unwrap_or(JITTER);
-    if !fixed { return Ok(jittered(mesh, amount, seed)); }
+    if !fixed {
+        return Ok(jittered(mesh, amount, seed));
+    }
     let topology = mesh.topology();
     let seeds = jittered(mesh, 1.0, seed);
     let positions = VertexMap::from_fn(topology.vertex_count(), |v| {
         let edges = topology.fan(v).map(|h| topology.edge(h));
         let shortest = edges.map(|e| mesh.edge_length(e)).fold(f64::INFINITY, f64::min);
-        let normal: DVec3 = topology.fan(v).map(|h| {
-            let [a, b, c] = mesh.triangle(h.face());
-            (b - a).cross(c - a)
-        }).sum::<DVec3>().normalize();
+        let normal: DVec3 = topology
+            .fan(v)
+            .map(|h| {
+                let [a, b, c] = mesh.triangle(h.face());
+                (b - a).cross(c - a)
+            })
+            .sum::<DVec3>()
+            .normalize();
         let random = seeds.position(v) - mesh.position(v);
         let tangent = (random - normal * random.dot(normal)).normalize_or_zero();
         mesh.position(v) + tangent * (amount * shortest)

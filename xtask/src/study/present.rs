@@ -84,7 +84,8 @@ pub(super) fn page(study: &Study) -> String {
         let Convergence { family: name, formula, .. } = family;
         page += &format!("\n## {name}: `{formula}`\n\n{}", convergence(family).markdown());
     }
-    page += &format!("\n## Cost of the whole pipeline, one thread\n\n{}", cost(&study.cost).markdown());
+    page +=
+        &format!("\n## Cost of the whole pipeline, one thread\n\n{}", cost(&study.cost).markdown());
     page += &format!("\n## Checks\n\n{}", checks(&study.checks).markdown());
     page
 }

@@ -30,7 +30,9 @@ pub(super) fn check(root: &Path, text: &str) -> Checked {
         }
         checked.rows += 1;
         let wrong = row_problems(root, &cells);
-        checked.problems.extend(wrong.into_iter().map(|problem| format!("{}: {problem}", number + 1)));
+        checked
+            .problems
+            .extend(wrong.into_iter().map(|problem| format!("{}: {problem}", number + 1)));
     }
     checked
 }
@@ -151,7 +153,10 @@ mod tests {
             ("| 1 | `solve` (b.rs) | `systems_agree` (a.rs) |", "5: b.rs cannot be read"),
             ("| 1 | `solve` | `systems_agree` (a.rs) |", "5:  cannot be read"),
             ("| 1 | `solve` (a.rs) | `Rows` (a.rs) |", "5: a.rs has no test `Rows`"),
-            ("| 1 | solve | `systems_agree` (a.rs) |", "5: no `item` (file) in the code cell: solve"),
+            (
+                "| 1 | solve | `systems_agree` (a.rs) |",
+                "5: no `item` (file) in the code cell: solve",
+            ),
             ("| 1 | `solve` (a.rs) |", "5: a row with 2 cells instead of 3"),
         ] {
             assert_eq!(problems(row), [problem], "{row}");

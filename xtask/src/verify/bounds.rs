@@ -37,8 +37,10 @@ pub(super) fn broken(m: &Measures, bounds: Bounds) -> Vec<String> {
             check(value <= bound, format!("{what} {value:.3e} exceeds {bound:e}"));
         }
     }
-    let counts =
-        [("folds", m.folds, bounds.folds.or(Some(0))), ("fallbacks", m.fallbacks, bounds.fallbacks)];
+    let counts = [
+        ("folds", m.folds, bounds.folds.or(Some(0))),
+        ("fallbacks", m.fallbacks, bounds.fallbacks),
+    ];
     for (what, count, bound) in counts {
         if let Some(bound) = bound {
             check(count <= bound, format!("{count} {what}, at most {bound} allowed"));

@@ -102,12 +102,12 @@ impl Golden {
             .filter(|((_, golden), (_, measured))| golden != measured)
             .map(|((what, golden), (_, measured))| format!("{what} {measured}, golden {golden}"));
         let figures = golden.figures().into_iter().zip(measured.figures());
-        let figures = figures.filter(|((_, golden), (_, measured))| !close(*golden, *measured)).map(
-            |((what, golden), (_, measured))| {
+        let figures = figures
+            .filter(|((_, golden), (_, measured))| !close(*golden, *measured))
+            .map(|((what, golden), (_, measured))| {
                 let change = 100.0 * (measured / golden - 1.0);
                 format!("{what} {measured:.4e}, golden {golden:.4e} ({change:+.2} %)")
-            },
-        );
+            });
         counts.chain(figures).collect()
     }
 

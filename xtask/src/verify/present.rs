@@ -11,8 +11,24 @@ use super::measures::Measures;
 use crate::table::{Table, scientific};
 
 const HEAD: [&str; 18] = [
-    "scene", "method", "faces", "Euler", "G1 °", "row", "max", "RMS", "normal °", "folds",
-    "fallb.", "retr.", "SQP", "vertex", "vx. n", "vx. II", "s", "",
+    "scene",
+    "method",
+    "faces",
+    "Euler",
+    "G1 °",
+    "row",
+    "max",
+    "RMS",
+    "normal °",
+    "folds",
+    "fallb.",
+    "retr.",
+    "SQP",
+    "vertex",
+    "vx. n",
+    "vx. II",
+    "s",
+    "",
 ];
 
 /// One line per case.

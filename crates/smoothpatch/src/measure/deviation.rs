@@ -70,6 +70,16 @@ pub fn deviation(
     (summarise(&faces, diagonal, grid), faces)
 }
 
+/// [`deviation`] on the grid of 153 points only, for comparison with figures measured like that.
+#[must_use]
+pub fn deviation_on_grid(
+    nets: &FaceMap<SepticTriangle>,
+    target: &dyn SurfaceTarget,
+    diagonal: f64,
+) -> Deviation {
+    summarise(&face_deviations(nets, target, |_| None), diagonal, GRID)
+}
+
 /// Figures of each face on the grid of 153 points, those that `known` returns as they are.
 pub(crate) fn face_deviations(
     nets: &FaceMap<SepticTriangle>,
