@@ -46,4 +46,16 @@ impl SurfaceTarget for FieldTarget<'_> {
             *foot = normal.ok().map(|normal| Foot { point, normal });
         }
     }
+
+    fn linear_feet(&self, points: &[DVec3], feet: &mut [Option<Foot>]) {
+        assert_eq!(points.len(), feet.len(), "one foot per point");
+        let mut values = vec![(0.0, DVec3::ZERO); points.len()];
+        self.field.value_gradients(points, &mut values);
+        for ((foot, &point), (value, gradient)) in feet.iter_mut().zip(points).zip(values) {
+            let slope = gradient.length();
+            let usable = slope > 0.0 && slope.is_finite() && value.is_finite();
+            let normal = gradient / slope;
+            *foot = usable.then(|| Foot { point: point - normal * (value / slope), normal });
+        }
+    }
 }

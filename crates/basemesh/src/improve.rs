@@ -74,7 +74,7 @@ pub struct ImproveReport {
 /// improved as far as single steps lead. Deterministic, single threaded except for projections;
 /// lengths may have any scale.
 ///
-/// Section 2 of the notes on [TK09].
+/// See `docs/math/base-mesh.md`.
 ///
 /// # Errors
 ///

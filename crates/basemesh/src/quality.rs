@@ -39,7 +39,7 @@ pub fn edge_turning(mesh: &TriMesh, normals: &VertexMap<DVec3>, edge: EdgeId) ->
 /// counter-clockwise, each by an angle in (0°, 180°), and once around for a vertex that is not on a
 /// boundary. Sorted by id. Scale free.
 ///
-/// Section 2 of the notes on [TK09]: such vertices are where patches fold; the remedy is a finer
+/// `docs/math/base-mesh.md`: such vertices are where patches fold; the remedy is a finer
 /// mesh there, see [`split_edges`](crate::split_edges).
 ///
 /// # Panics

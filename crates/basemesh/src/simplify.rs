@@ -53,7 +53,7 @@ pub struct Simplified {
 /// dense, with fewer than twice the faces asked for. Results do not depend on the number of threads, and
 /// scaling mesh and surface by a power of two scales the result bit for bit.
 ///
-/// Section 2 of the notes on [TK09]; quadrics as by Garland and Heckbert (1997).
+/// See `docs/math/base-mesh.md`; quadrics as by Garland and Heckbert (1997).
 ///
 /// # Errors
 ///

@@ -34,4 +34,17 @@ pub trait SurfaceTarget: Sync {
             *foot = self.foot(*point);
         }
     }
+
+    /// Feet of points that are close to the surface already, in one step: both the foot and its
+    /// normal are right up to the square of the distance, times the curvature.
+    ///
+    /// Enough for rounds of fitting, at a fraction of the cost of [`feet`](Self::feet), which is the
+    /// default.
+    ///
+    /// # Panics
+    ///
+    /// If the two slices differ in length.
+    fn linear_feet(&self, points: &[DVec3], feet: &mut [Option<Foot>]) {
+        self.feet(points, feet);
+    }
 }

@@ -53,7 +53,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The published scheme [TK09]: nearest solutions. Its smooth surface loses two orders of
+    /// The published scheme \[TK09\]: nearest solutions. Its smooth surface loses two orders of
     /// approximation against its positional patches.
     pub const PUBLISHED: Self =
         Self { fill: Fill::Septic, rows: Rows::Nearest, inner_points: InnerPoints::Keep };

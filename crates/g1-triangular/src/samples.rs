@@ -24,10 +24,10 @@ pub(crate) fn parameters() -> &'static [Barycentric; SAMPLES] {
     &PARAMETERS
 }
 
-/// Feet of 55 points; `None` if one is missing.
+/// Feet of 55 points close to the surface; `None` if one is missing.
 pub(crate) fn feet(target: &dyn SurfaceTarget, points: &[DVec3; SAMPLES]) -> Option<Feet> {
     let mut found: [Option<Foot>; SAMPLES] = [None; SAMPLES];
-    target.feet(points, &mut found);
+    target.linear_feet(points, &mut found);
     let mut feet = [Foot { point: DVec3::ZERO, normal: DVec3::ZERO }; SAMPLES];
     for (slot, foot) in feet.iter_mut().zip(found) {
         *slot = foot?;

@@ -31,7 +31,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The tolerance of [TK09], at which iterations are counted for comparison.
+    /// The tolerance of \[TK09\], at which iterations are counted for comparison.
     pub const PUBLISHED_TOLERANCE: f64 = 1e-6;
 }
 

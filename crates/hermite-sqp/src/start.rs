@@ -12,7 +12,7 @@ use crate::settings::Settings;
 /// the defect divided by their angle.
 const PARALLEL_NORMALS: f64 = 1e-3;
 
-/// The least-squares fit without constraints. The guess of [TK09] for `λ` and `μ` from the
+/// The least-squares fit without constraints. The guess of \[TK09\] for `λ` and `μ` from the
 /// curvatures is undefined for straight sections and is not used.
 pub(crate) fn unconstrained(problem: &EdgeProblem) -> Option<Unknowns> {
     let x = problem.matrix.cholesky()?.solve(&problem.rhs);

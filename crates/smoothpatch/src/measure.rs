@@ -1,9 +1,11 @@
 //! How good a surface is, measured on its control nets alone and against a target.
 
+mod certify;
 mod continuity;
 mod deviation;
 mod interpolation;
 
+pub use certify::{Certificate, USUAL_CUTS, certify};
 pub use continuity::{Continuity, SEAM_SAMPLES, continuity, seam};
 pub use deviation::{Deviation, FaceDeviation, GRID, deviation, deviation_on_grid, folded_patches};
 pub(crate) use deviation::{face_deviations, settle};

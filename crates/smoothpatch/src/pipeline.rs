@@ -288,8 +288,11 @@ fn fit_curve(
         FitError::Edge { edge: edge.index(), a: a.index(), b: b.index(), reason }
     })?;
     let solved = hermite_sqp::solve(&problem, &settings.curves);
-    let foot =
-        |near| target.foot(near).map(|foot| CurveFoot { point: foot.point, normal: foot.normal });
+    let foot = |near| {
+        let mut foot = [None];
+        target.linear_feet(&[near], &mut foot);
+        foot[0].map(|foot| CurveFoot { point: foot.point, normal: foot.normal })
+    };
     let refined = hermite_sqp::refine(&problem, &solved.curve, refinement, &settings.curves, &foot);
     Ok(EdgeOutcome { curve: refined.curve, ..solved })
 }

@@ -12,7 +12,7 @@ pub enum Method {
     /// Our objectives: full order of approximation.
     #[default]
     Refined,
-    /// The scheme of [TK09] with its errata mended: nearest solutions.
+    /// The scheme of \[TK09\] with its errata mended: nearest solutions.
     Published,
 }
 

@@ -47,6 +47,10 @@ impl SurfaceTarget for FieldSource<'_> {
     fn feet(&self, points: &[DVec3], feet: &mut [Option<Foot>]) {
         self.target.feet(points, feet);
     }
+
+    fn linear_feet(&self, points: &[DVec3], feet: &mut [Option<Foot>]) {
+        self.target.linear_feet(points, feet);
+    }
 }
 
 impl SecondOrderData for FieldSource<'_> {

@@ -76,7 +76,7 @@ impl From<&Polygonization> for Polygonized {
 pub struct CurveSummary {
     /// Edges with a fallback curve.
     pub fallbacks: usize,
-    /// Mean number of steps of the others to the tolerance of [TK09].
+    /// Mean number of steps of the others to the tolerance of \[TK09\].
     pub mean_iterations: f64,
 }
 

@@ -13,14 +13,14 @@ const METHODS: [Method; 2] = [Method::Published, Method::Refined];
 /// Bound on the change of control points, over the diagonal. The published method is a sequence of
 /// well-conditioned steps. The refined curves minimise a function that is flat in some directions,
 /// in a given number of steps; they carry round-off on, but only where the surface hardly feels it.
-pub fn tolerance(method: Method) -> f64 {
+fn tolerance(method: Method) -> f64 {
     match method {
         Method::Published => 1e-12,
         _ => 1e-8,
     }
 }
 
-pub fn blob() -> Blob {
+fn blob() -> Blob {
     let wave = Wave { amplitude: 0.05, wave: DVec3::new(2.0, -1.0, 1.5), phase: 0.4 };
     Blob {
         semi_axes: DVec3::new(1.1, 0.9, 1.0),
@@ -29,7 +29,7 @@ pub fn blob() -> Blob {
     }
 }
 
-pub fn mesh() -> TriMesh {
+fn mesh() -> TriMesh {
     let edits: Vec<Edit> = (0..30)
         .map(|i| if i % 2 == 0 { Edit::Flip(31 * i) } else { Edit::Split(17 * i) })
         .collect();
@@ -37,16 +37,16 @@ pub fn mesh() -> TriMesh {
     radially_on_surface(&jittered(&edited, 0.1, 3), &blob(), 4.0)
 }
 
-pub fn fit(field: &dyn ImplicitSurface, mesh: TriMesh, method: Method) -> G1Surface {
+fn fit(field: &dyn ImplicitSurface, mesh: TriMesh, method: Method) -> G1Surface {
     let settings = Settings::with_faces(0).with_method(method);
     fit_base_mesh(field, mesh, &settings, &mut Silent).unwrap()
 }
 
-pub fn nets(surface: &G1Surface) -> Vec<[DVec3; 36]> {
+fn nets(surface: &G1Surface) -> Vec<[DVec3; 36]> {
     surface.patches.nets.as_slice().iter().map(|net| *net.net()).collect()
 }
 
-pub fn largest_distance(a: &[[DVec3; 36]], b: &[[DVec3; 36]]) -> f64 {
+fn largest_distance(a: &[[DVec3; 36]], b: &[[DVec3; 36]]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().flatten().zip(b.iter().flatten()).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max)
 }
@@ -89,7 +89,7 @@ proptest! {
 
 /// Faces in another order, corners as they were: the same bits.
 #[test]
-pub fn the_order_of_faces_does_not_matter() {
+fn the_order_of_faces_does_not_matter() {
     let mesh = mesh();
     let count = mesh.topology().face_count();
     // a permutation without pattern: 7919 is a prime and no divisor of the number of faces
@@ -110,7 +110,7 @@ pub fn the_order_of_faces_does_not_matter() {
 /// Corners of faces turned: curves and what is decided at vertices keep their bits, patches are the
 /// same up to the order of their sums.
 #[test]
-pub fn the_first_corner_of_a_face_does_not_matter() {
+fn the_first_corner_of_a_face_does_not_matter() {
     let mesh = mesh();
     let mut faces = mesh.face_indices();
     faces.iter_mut().enumerate().for_each(|(f, face)| face.rotate_left(f % 3));
@@ -127,7 +127,7 @@ pub fn the_first_corner_of_a_face_does_not_matter() {
 }
 
 /// The net as a patch whose first corner is the one `times` further on.
-pub fn turn(net: &[DVec3; 36], times: usize) -> [DVec3; 36] {
+fn turn(net: &[DVec3; 36], times: usize) -> [DVec3; 36] {
     use smoothpatch::bezier_core::MultiIndex;
     std::array::from_fn(|rank| {
         let m = MultiIndex::at_rank(7, rank);
@@ -140,7 +140,7 @@ pub fn turn(net: &[DVec3; 36], times: usize) -> [DVec3; 36] {
 
 /// Vertices numbered backwards: every curve is fitted from its other end.
 #[test]
-pub fn the_numbers_of_vertices_do_not_matter() {
+fn the_numbers_of_vertices_do_not_matter() {
     let mesh = mesh();
     let last = mesh.topology().vertex_count() - 1;
     let mut positions = mesh.positions().as_slice().to_vec();
