@@ -29,6 +29,10 @@ pub struct RemeshSettings {
     pub longest: f64,
     /// Edges shorter than this multiple of the wanted length are collapsed. Default 4/5.
     pub shortest: f64,
+    /// The number of faces of the result, an even number: in the last round the edges that are
+    /// longest or shortest in relation to what is wanted are split or collapsed until it is reached,
+    /// if the limits allow it. Default none.
+    pub faces: Option<usize>,
 }
 
 impl Default for RemeshSettings {
@@ -38,6 +42,7 @@ impl Default for RemeshSettings {
             rounds: 3,
             longest: 4.0 / 3.0,
             shortest: 4.0 / 5.0,
+            faces: None,
         }
     }
 }
@@ -98,9 +103,13 @@ pub fn remesh(
     let mut work = Remesh { surface, lengths: lengths.as_slice().to_vec() };
     let guard = settings.limits.guard();
     let mut report = ImproveReport::default();
-    for _ in 0..settings.rounds {
+    for round in 1..=settings.rounds {
         work.split_long(settings);
         work.collapse_short(settings, &guard);
+        if let Some(faces) = settings.faces.filter(|_| round == settings.rounds) {
+            work.split_until(faces, settings);
+            work.collapse_until(faces, &guard);
+        }
         for goal in [FlipGoal::Valence, FlipGoal::Delaunay] {
             report.flips += flip_edges(&mut work.surface, &guard, goal);
             report.moves += work.relax(settings, &guard);

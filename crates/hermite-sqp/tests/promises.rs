@@ -5,16 +5,10 @@ mod common;
 use bezier_core::glam::DVec3;
 use bezier_core::{QuarticCurve, SurfaceJet};
 use common::{
-    Field, cubic_sheet, cylinder, hyperboloid, jet, plane, problem, project, quartic_sheet, saddle,
-    torus,
+    Field, cubic_sheet, cylinder, hyperboloid, jet, on_torus, plane, problem, project,
+    quartic_sheet, saddle, torus,
 };
 use hermite_sqp::{CurveSample, EdgeProblem, EdgeProblemError, EdgeStatus, Settings, solve};
-
-/// A point of the torus with `f = 0` by its angles.
-fn on_torus(u: f64, v: f64) -> DVec3 {
-    let rho = 5.0 + v.cos();
-    DVec3::new(rho * u.cos(), rho * u.sin(), v.sin())
-}
 
 /// Largest defect of end points, end tangent planes and end curvatures, in chord lengths.
 fn interpolation_defect(field: Field, ends: [DVec3; 2], curve: &QuarticCurve) -> f64 {

@@ -23,7 +23,7 @@ pub struct FieldJet {
 /// [`TwiceDifferentiable::jet`]) and the batch methods agree bit for bit in every field of this
 /// crate; implementors outside should keep that.
 /// Where the field is undefined (the square root of a negative number) the value is NaN, and where
-/// it has no derivative the gradient is not finite: [`project`](crate::project) and
+/// it has no derivative the gradient is not finite: [`project`](crate::project()) and
 /// [`surface_point`](crate::surface_point) turn both into errors.
 pub trait ImplicitField: Sync {
     /// The value at `p`.

@@ -1,6 +1,10 @@
 //! Enclosures of the gradient: outward, tight on small boxes, honest at kinks and jumps.
 
-#![allow(clippy::missing_assert_message, reason = "helpers of tests fail like tests")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::missing_assert_message,
+    reason = "helpers of tests fail like tests"
+)]
 
 mod common;
 
@@ -197,7 +201,8 @@ fn wrappers_pass_it_on() {
     assert_eq!(level.gradient_enclosure(&region), expected);
     let boxed: Box<dyn ImplicitSurface> = Box::new(torus);
     assert_eq!(boxed.gradient_enclosure(&region), expected);
-    assert_eq!((&boxed).gradient_enclosure(&region), expected);
+    let reference: &dyn BoundedField = &boxed;
+    assert_eq!(Level { field: reference, level: 1.0 }.gradient_enclosure(&region), expected);
     let closure = Closure::new(|[x, _, _]| x);
     assert_eq!(closure.gradient_enclosure(&region), [Interval::ENTIRE; 3]);
 }

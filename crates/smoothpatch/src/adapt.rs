@@ -1,6 +1,7 @@
 //! An accuracy instead of a number of faces: the base mesh is changed until the measured deviation
 //! holds everywhere.
 
+mod equalise;
 mod wishes;
 
 use basemesh::{
@@ -18,6 +19,7 @@ use crate::progress::{Clock, Progress, Stage};
 use crate::settings::Settings;
 use crate::source::FieldSource;
 use crate::surface::{BaseMeshOrigin, G1Surface, Polygonized};
+pub(crate) use equalise::equalise;
 use wishes::{all_wishes, urgent_wishes};
 
 /// How close the patches must come to the surface.
@@ -135,7 +137,7 @@ pub fn fit_to_tolerance(
         }
         let excess = excess(&surface, &deviations, tolerance);
         let wishes = if shaping > 0 {
-            all_wishes(&surface, &excess)
+            Some(all_wishes(&surface.mesh, &excess))
         } else {
             refining += 1;
             urgent_wishes(&surface, &excess, refining)

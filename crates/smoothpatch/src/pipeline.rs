@@ -9,6 +9,7 @@ use g1_triangular::{CurveNetwork, SmoothPatches, fill_reusing, join_reusing};
 use hermite_sqp::{CurveFoot, CurveRefinement, CurveSample, EdgeOutcome, EdgeProblem};
 use implicit::{Aabb, ImplicitSurface};
 
+use crate::adapt::equalise;
 use crate::error::FitError;
 use crate::folds::find_folds;
 use crate::measure::{FaceDeviation, face_deviations};
@@ -49,8 +50,11 @@ pub fn fit(
         simplify(dense.mesh, &target, &settings.base_mesh.simplify)
     })?;
     let source = FieldSource::new(field, base.mesh.diagonal(), settings.projection);
-    let mut surface =
-        fit_mesh(base.mesh, &source, settings, settings.base_mesh.repair_rounds, &mut clock)?;
+    let mut surface = equalise(base.mesh, &source, settings, &mut clock)?;
+    if needs_repair(&surface, &source) {
+        let rounds = settings.base_mesh.repair_rounds;
+        surface = fit_mesh(surface.mesh, &source, settings, rounds, &mut clock)?;
+    }
     let added_faces = surface.mesh.topology().face_count() - base.report.faces;
     surface.origin = BaseMeshOrigin {
         polygonized: Some(polygonized),
@@ -97,6 +101,13 @@ pub fn fit_source(
     Ok(surface)
 }
 
+/// Whether the base mesh does not resolve the surface somewhere, or patches fold over.
+fn needs_repair(surface: &G1Surface, source: &dyn FitSource) -> bool {
+    let G1Surface { mesh, jets, curves, patches, .. } = surface;
+    !edges_to_split(mesh, jets, curves).is_empty()
+        || !find_folds(mesh, jets, &patches.nets, source).is_empty()
+}
+
 /// Curves, then patches, then smooth patches; with local refinement of the mesh where its curves
 /// show that it does not resolve the surface.
 pub(crate) fn fit_mesh(
@@ -117,8 +128,13 @@ pub(crate) fn fit_mesh(
             break (jets, curves);
         }
         repair_rounds -= 1;
-        mesh =
-            clock.run(Stage::Simplify, unresolved.len(), || refine(&mesh, source, &unresolved))?;
+        let refined =
+            clock.run(Stage::Simplify, unresolved.len(), || refine(&mesh, source, &unresolved));
+        match refined {
+            Ok(refined) => mesh = refined,
+            // no surface near an edge: what cannot be mended is reported
+            Err(_) => break (jets, curves),
+        }
     };
     let mut objectives = Objectives::uniform(mesh.topology(), settings);
     let mut fitted = fit_patches(&mesh, &jets, curves, source, &objectives, clock)?;

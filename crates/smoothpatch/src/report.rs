@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use basemesh::SurfaceTarget;
+use basemesh::{MeshQuality, SurfaceTarget};
 use serde::{Deserialize, Serialize};
 
 use crate::measure::{
@@ -45,9 +45,9 @@ pub struct BaseMeshReport {
     pub cells: usize,
     /// Whether two resolutions agreed about Euler characteristic and number of components.
     pub topology_confirmed: bool,
-    /// Largest angle between the normals at the ends of an edge, in degrees, after simplification.
+    /// Largest angle between the normals at the ends of an edge, in degrees.
     pub max_turning_deg: f64,
-    /// Smallest angle of a face, in degrees, after simplification.
+    /// Smallest angle of a face, in degrees.
     pub min_angle_deg: f64,
     /// Faces added where the simplified mesh did not resolve the surface.
     pub added_faces: usize,
@@ -108,13 +108,14 @@ fn retreats(surface: &G1Surface) -> BTreeMap<usize, Retreat> {
 
 fn base_mesh(surface: &G1Surface) -> Option<BaseMeshReport> {
     let polygonized = surface.origin.polygonized?;
-    let simplified = surface.origin.simplified.as_ref()?;
+    let normals = surface.jets.map(|_, jet| jet.normal);
+    let quality = MeshQuality::measure(&surface.mesh, &normals);
     Some(BaseMeshReport {
         triangles: polygonized.triangles,
         cells: polygonized.found.cells,
         topology_confirmed: polygonized.confirmed,
-        max_turning_deg: simplified.max_turning_deg,
-        min_angle_deg: simplified.min_angle_deg,
+        max_turning_deg: quality.max_turning_deg,
+        min_angle_deg: quality.min_angle_deg,
         added_faces: surface.origin.added_faces,
     })
 }

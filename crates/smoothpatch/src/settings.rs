@@ -40,6 +40,8 @@ pub struct BaseMeshSettings {
     pub oversampling: usize,
     /// Decimation and improvement, with the number of faces asked for.
     pub simplify: SimplifySettings,
+    /// Rounds of spreading the deviation evenly over the faces, each by a fit of its own.
+    pub equalising_rounds: usize,
     /// Rounds of local refinement where the mesh does not resolve the surface.
     pub repair_rounds: usize,
 }
@@ -52,6 +54,7 @@ impl Settings {
             base_mesh: BaseMeshSettings {
                 oversampling: 20,
                 simplify: SimplifySettings::to_faces(faces),
+                equalising_rounds: 2,
                 repair_rounds: 4,
             },
             projection: ProjectionSettings::default(),

@@ -35,6 +35,24 @@ impl Remesh<'_> {
         }
     }
 
+    /// Splits the edges that need it most until there are at least `faces` faces.
+    pub(super) fn split_until(&mut self, faces: usize, settings: &RemeshSettings) {
+        for _ in 0..MAX_SWEEPS {
+            let mut edges: Vec<(f64, HalfedgeId)> =
+                self.surface.mesh.edges().map(|h| (self.need(settings, h), h)).collect();
+            edges.sort_by(|x, y| y.0.total_cmp(&x.0).then(x.1.cmp(&y.1)));
+            for (need, h) in edges {
+                if self.surface.mesh.face_count() >= faces {
+                    return;
+                }
+                // not the halves of an edge split in this sweep
+                if self.need(settings, h) >= need {
+                    self.split(h);
+                }
+            }
+        }
+    }
+
     /// How much too long an edge is, or how much too far the surface turns along it: above one, it
     /// is split.
     fn need(&self, settings: &RemeshSettings, h: HalfedgeId) -> f64 {

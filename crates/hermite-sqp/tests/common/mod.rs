@@ -49,6 +49,12 @@ pub(crate) fn torus(p: DVec3) -> (f64, DVec3, DMat3) {
     (d * d + p.z * p.z - 1.0, (radial * d + DVec3::Z * p.z) * 2.0, hessian)
 }
 
+/// A point of the torus with `f = 0` by its angles.
+pub(crate) fn on_torus(u: f64, v: f64) -> DVec3 {
+    let rho = 5.0 + v.cos();
+    DVec3::new(rho * u.cos(), rho * u.sin(), v.sin())
+}
+
 pub(crate) fn saddle(p: DVec3) -> (f64, DVec3, DMat3) {
     (
         p.z - p.x * p.y,

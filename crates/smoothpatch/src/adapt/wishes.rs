@@ -9,6 +9,9 @@ use crate::surface::G1Surface;
 const AIM: f64 = 0.35;
 /// Where it is aimed at once the mesh has its shape.
 const URGENT_AIM: f64 = 0.7;
+/// A face with an error of more than this multiple of the aim is not left to the mean of its
+/// neighbours.
+const OUTLIER: f64 = 2.0;
 /// Order of the deviation in the edge length.
 const ORDER: f64 = 6.0;
 /// Most that one round changes a length.
@@ -22,17 +25,42 @@ const MOST: f64 = 0.6;
 const STUBBORN: f64 = 0.95;
 
 /// A length for every vertex, so that all faces come close to the same deviation.
-pub(super) fn all_wishes(
-    surface: &G1Surface,
-    excess: &FaceMap<f64>,
-) -> Option<VertexMap<Option<f64>>> {
-    let topology = surface.mesh.topology();
-    let factor = |face: FaceId| (AIM / excess[face]).powf(1.0 / ORDER).clamp(SHRINK, GROW).ln();
-    Some(VertexMap::from_fn(topology.vertex_count(), |vertex| {
+pub(super) fn all_wishes(mesh: &TriMesh, excess: &FaceMap<f64>) -> VertexMap<Option<f64>> {
+    even_wishes(mesh, excess, AIM)
+}
+
+/// A length for every vertex, so that the error of all faces comes close to `aim`.
+pub(super) fn even_wishes(
+    mesh: &TriMesh,
+    errors: &FaceMap<f64>,
+    aim: f64,
+) -> VertexMap<Option<f64>> {
+    let topology = mesh.topology();
+    let factor = |face: FaceId| stretch(errors[face], aim).ln();
+    let limit = |face: FaceId| stretch(errors[face], OUTLIER * aim);
+    VertexMap::from_fn(topology.vertex_count(), |vertex| {
         let faces = || topology.fan(vertex).map(HalfedgeId::face);
         let mean = faces().map(factor).sum::<f64>() / faces().count() as f64;
-        Some(length_at(&surface.mesh, vertex) * mean.exp())
-    }))
+        let limit = faces().map(limit).fold(f64::INFINITY, f64::min);
+        Some(length_at(mesh, vertex) * mean.exp().min(limit))
+    })
+}
+
+/// The error at which faces of these errors, with their edges changed accordingly, would be `count`:
+/// the number of faces falls with the square of the length.
+pub(super) fn aim_for(errors: &FaceMap<f64>, count: f64) -> f64 {
+    let faces = |aim: f64| errors.as_slice().iter().map(|&e| stretch(e, aim).powi(-2)).sum::<f64>();
+    let mut range = [f64::MIN_POSITIVE.sqrt().ln(), f64::MAX.sqrt().ln()];
+    for _ in 0..60 {
+        let middle = 0.5 * (range[0] + range[1]);
+        range[usize::from(faces(middle.exp()) < count)] = middle;
+    }
+    range[0].exp()
+}
+
+/// The factor for the edge lengths of a face that makes its error about `aim`.
+fn stretch(error: f64, aim: f64) -> f64 {
+    (aim / error).powf(1.0 / ORDER).clamp(SHRINK, GROW)
 }
 
 /// Shorter lengths at the corners of faces that exceed the tolerance and of edges that the mesh does

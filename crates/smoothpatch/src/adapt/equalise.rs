@@ -1,0 +1,70 @@
+//! The deviation is spread evenly over a given number of faces.
+
+use basemesh::{FaceMap, RemeshSettings, TriMesh, remesh};
+
+use super::wishes::{aim_for, even_wishes};
+use crate::error::FitError;
+use crate::measure::FaceDeviation;
+use crate::memory::Memory;
+use crate::pipeline::fit_again;
+use crate::progress::{Clock, Stage};
+use crate::settings::Settings;
+use crate::source::FieldSource;
+use crate::surface::G1Surface;
+
+/// The fit of a base mesh with the same number of faces on which the deviation is spread more
+/// evenly.
+///
+/// Every round fits the mesh and remeshes it with edge lengths that make the deviation, judged by
+/// this fit, the same everywhere. The best of all fits is returned: that with the smallest product
+/// of largest distance and largest normal angle.
+pub(crate) fn equalise(
+    mesh: TriMesh,
+    source: &FieldSource<'_>,
+    settings: &Settings,
+    clock: &mut Clock<'_>,
+) -> Result<G1Surface, FitError> {
+    let faces = mesh.topology().face_count();
+    let mut memory = Memory::default();
+    let (mut surface, mut deviations) = fit_again(mesh, source, settings, &mut memory, clock)?;
+    let mut best: Option<(f64, G1Surface)> = None;
+    for _ in 0..settings.base_mesh.equalising_rounds {
+        let errors = errors(&surface, &deviations);
+        let wishes = even_wishes(&surface.mesh, &errors, aim_for(&errors, faces as f64));
+        let to = RemeshSettings { faces: Some(faces), ..RemeshSettings::default() };
+        let remeshed =
+            clock.run(Stage::Simplify, faces, || remesh(&surface.mesh, source, &wishes, &to))?.mesh;
+        // the guards may refuse to reach the number of faces
+        if remeshed.topology().face_count() != faces {
+            break;
+        }
+        keep_better(&mut best, badness(&surface, &deviations), surface);
+        (surface, deviations) = fit_again(remeshed, source, settings, &mut memory, clock)?;
+    }
+    keep_better(&mut best, badness(&surface, &deviations), surface);
+    let (_, surface) = best.expect("invariant: at least one fit was kept");
+    Ok(surface)
+}
+
+fn keep_better(best: &mut Option<(f64, G1Surface)>, badness: f64, surface: G1Surface) {
+    if best.as_ref().is_none_or(|(least, _)| badness < *least) {
+        *best = Some((badness, surface));
+    }
+}
+
+/// Largest distance times largest normal angle; worse than everything if patches fold.
+fn badness(surface: &G1Surface, deviations: &FaceMap<FaceDeviation>) -> f64 {
+    let largest = |value: &dyn Fn(&FaceDeviation) -> f64| {
+        deviations.as_slice().iter().map(value).fold(0.0, f64::max)
+    };
+    let folds = deviations.as_slice().iter().filter(|face| face.folded).count();
+    let size = surface.mesh.diagonal();
+    largest(&|face| face.max) * largest(&|face| face.max_normal) + folds as f64 * size
+}
+
+/// Largest distance of every patch; all of the surface's size for a folded one.
+fn errors(surface: &G1Surface, deviations: &FaceMap<FaceDeviation>) -> FaceMap<f64> {
+    let size = surface.mesh.diagonal();
+    let floor = f64::EPSILON * size;
+    deviations.map(|_, face| if face.folded { size } else { face.max.max(floor) })
+}
