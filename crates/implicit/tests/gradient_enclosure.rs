@@ -191,6 +191,29 @@ fn jumps_and_poles_are_unbounded() {
     }
 }
 
+/// The cut of atan2 away from the origin, where the derivatives are small on both sides.
+#[test]
+fn the_cut_of_an_angle_is_a_jump() {
+    let across = Aabb { min: DVec3::new(-2.0, -1.0, 0.0), max: DVec3::new(-1.0, 1.0, 1.0) };
+    let above = Aabb { min: DVec3::new(-2.0, 0.5, 0.0), ..across };
+    let angle = formula("atan2(y, x)");
+    assert_eq!(angle.gradient_enclosure(&across)[..2], [Interval::ENTIRE; 2]);
+    assert!(angle.gradient_enclosure(&above).iter().all(|slope| slope.width() < 3.0));
+    check_slopes("above the cut", &angle, &above);
+}
+
+/// Over single points nothing but the outward rounding covers the rounding in `f64`.
+#[test]
+fn points_are_covered() {
+    let region = Aabb::from_half_size(3.0);
+    for text in ["atan2(x, y) + atan2(z, x)", "tanh(x)*tanh(3*y) - tanh(z)", "x^1.3 - y^-0.3"] {
+        let field = formula(text);
+        for p in sample_points(&region, 5000) {
+            check(text, &field, &Aabb { min: p, max: p }, 0);
+        }
+    }
+}
+
 #[test]
 fn wrappers_pass_it_on() {
     let region = cube(DVec3::new(5.5, 0.0, 0.5), 0.25);

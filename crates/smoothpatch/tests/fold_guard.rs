@@ -1,5 +1,6 @@
 //! On bad meshes the refined method never folds more patches than the published one, stays exactly
 //! smooth, and says which patches it took back.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test with figures for people")]
 
 use smoothpatch::basemesh::{
     EdgeId, FieldTarget, PolygonizeSettings, SimplifySettings, TriMesh, polygonize, simplify,

@@ -1,4 +1,5 @@
 //! An accuracy is met as measured independently, with few faces.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test with figures for people")]
 
 use smoothpatch::basemesh::{Foot, SurfaceTarget};
 use smoothpatch::bezier_core::Barycentric;

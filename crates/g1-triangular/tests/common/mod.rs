@@ -8,7 +8,7 @@ use g1_triangular::{CurveNetwork, Plan, Settings, SmoothPatches, fill, join};
 use testkit::meshes::{icosphere, jittered};
 
 /// The unit sphere: something to fit the free points to.
-pub struct UnitSphere;
+pub(crate) struct UnitSphere;
 
 impl SurfaceTarget for UnitSphere {
     fn foot(&self, near: DVec3) -> Option<Foot> {
@@ -18,7 +18,7 @@ impl SurfaceTarget for UnitSphere {
 }
 
 /// Numbers in [-1, 1] without pattern.
-pub fn spread(index: usize, which: usize) -> f64 {
+pub(crate) fn spread(index: usize, which: usize) -> f64 {
     let steps = [0.819_172_513_396_164, 0.671_043_606_703_789, 0.549_700_477_901_970];
     2.0 * (steps[which % 3] * (index + 1) as f64 + 0.37 * which as f64).fract() - 1.0
 }
@@ -27,15 +27,15 @@ fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
-pub struct Twisted {
-    pub mesh: TriMesh,
-    pub jets: VertexMap<SurfaceJet>,
-    pub network: CurveNetwork,
+pub(crate) struct Twisted {
+    pub(crate) mesh: TriMesh,
+    pub(crate) jets: VertexMap<SurfaceJet>,
+    pub(crate) network: CurveNetwork,
 }
 
 /// Tilted normals, arbitrary forms, end tangents turned in their tangent planes by up to `turn`
 /// radians, middle points moved aside.
-pub fn twisted(turn: f64) -> Twisted {
+pub(crate) fn twisted(turn: f64) -> Twisted {
     let mesh = jittered(&icosphere(1), 0.1, 3);
     let jets = mesh.positions().map(|vertex, &point| {
         let value = |which| spread(vertex.index(), which);
@@ -83,11 +83,11 @@ fn twisted_curve(
 }
 
 impl Twisted {
-    pub fn plan(&self, settings: Settings) -> Plan {
+    pub(crate) fn plan(&self, settings: Settings) -> Plan {
         Plan::uniform(self.mesh.topology(), settings)
     }
 
-    pub fn construct(&self, plan: &Plan) -> SmoothPatches {
+    pub(crate) fn construct(&self, plan: &Plan) -> SmoothPatches {
         let positional = fill(&self.mesh, &self.network, &UnitSphere, plan);
         join(&self.mesh, &self.jets, &self.network, positional.nets, &UnitSphere, plan).unwrap()
     }

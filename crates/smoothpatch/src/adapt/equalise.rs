@@ -62,9 +62,12 @@ fn badness(surface: &G1Surface, deviations: &FaceMap<FaceDeviation>) -> f64 {
     largest(&|face| face.max) * largest(&|face| face.max_normal) + folds as f64 * size
 }
 
-/// Largest distance of every patch; all of the surface's size for a folded one.
+/// Largest distance of every patch in diagonals; one for a folded patch.
 fn errors(surface: &G1Surface, deviations: &FaceMap<FaceDeviation>) -> FaceMap<f64> {
     let size = surface.mesh.diagonal();
-    let floor = f64::EPSILON * size;
-    deviations.map(|_, face| if face.folded { size } else { face.max.max(floor) })
+    deviations.map(
+        |_, face| {
+            if face.folded { 1.0 } else { (face.max / size).clamp(f64::EPSILON, 1.0) }
+        },
+    )
 }

@@ -46,11 +46,11 @@ pub(super) fn even_wishes(
     })
 }
 
-/// The error at which faces of these errors, with their edges changed accordingly, would be `count`:
-/// the number of faces falls with the square of the length.
+/// The error, at most one, at which faces of these errors, with their edges changed accordingly,
+/// would be `count`: the number of faces falls with the square of the length.
 pub(super) fn aim_for(errors: &FaceMap<f64>, count: f64) -> f64 {
     let faces = |aim: f64| errors.as_slice().iter().map(|&e| stretch(e, aim).powi(-2)).sum::<f64>();
-    let mut range = [f64::MIN_POSITIVE.sqrt().ln(), f64::MAX.sqrt().ln()];
+    let mut range = [f64::EPSILON.powi(2).ln(), 0.0];
     for _ in 0..60 {
         let middle = 0.5 * (range[0] + range[1]);
         range[usize::from(faces(middle.exp()) < count)] = middle;

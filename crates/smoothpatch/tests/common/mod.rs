@@ -1,5 +1,6 @@
 //! Given base meshes and oracle data, shared by the test files of this crate.
 #![allow(dead_code, reason = "each test file uses a part")]
+#![allow(clippy::unwrap_used, unreachable_pub, reason = "test helpers")]
 
 use serde_json::Value;
 use smoothpatch::basemesh::TriMesh;
