@@ -3,6 +3,8 @@
 pub(crate) mod edit_mesh;
 pub(crate) mod flip;
 pub(crate) mod guard;
+pub(crate) mod link;
+pub(crate) mod metric;
 mod settings;
 pub(crate) mod sliver;
 mod smooth;
@@ -20,6 +22,7 @@ use crate::maps::VertexMap;
 use crate::mesh::TriMesh;
 use crate::target::SurfaceTarget;
 use flip::{FlipGoal, flip_edges};
+use metric::Metric;
 use sliver::lift_slivers;
 use smooth::smooth;
 use surface_mesh::SurfaceMesh;
@@ -64,12 +67,13 @@ pub struct ImproveReport {
     pub off_surface: Vec<VertexId>,
 }
 
-/// Flips edges and moves vertices along the surface, so that triangles become well shaped where
-/// that does not make the surface turn too far along an edge.
+/// Flips edges and moves vertices along the surface, so that triangles become well shaped and fine
+/// where the surface bends.
 ///
 /// All vertices are put on the surface first. Then, `rounds` times: flips towards valence 6,
 /// smoothing, flips towards the Delaunay condition, smoothing, and single moves that lift
-/// triangles that are still thin. Every change passes the guards of
+/// triangles that are still thin. Smoothing and the Delaunay condition measure lengths that count
+/// the turning of the surface normal, see [`ImproveSettings::turning_weight`]. Every change passes the guards of
 /// `settings`, so that no property they watch gets worse; a mesh that violates them already is
 /// improved as far as single steps lead. Deterministic, single threaded except for projections;
 /// lengths may have any scale.
@@ -102,9 +106,10 @@ pub(crate) fn improve_surface(
     let guard = settings.guard();
     let mut report = ImproveReport::default();
     for _ in 0..settings.rounds {
-        for goal in [FlipGoal::Valence, FlipGoal::Delaunay] {
+        let metric = Metric::with_turning(surface, settings.turning_weight);
+        for goal in [FlipGoal::Valence, FlipGoal::Delaunay(metric)] {
             report.flips += flip_edges(surface, &guard, goal);
-            report.moves += smooth(surface, &guard, settings);
+            report.moves += smooth(surface, &guard, &metric, settings.smoothing_iterations);
         }
         report.moves += lift_slivers(surface, &guard);
     }

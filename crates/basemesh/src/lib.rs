@@ -1,4 +1,8 @@
-#![doc = include_str!("../README.md")]
+#![cfg_attr(feature = "polygonize", doc = include_str!("../README.md"))]
+#![cfg_attr(
+    not(feature = "polygonize"),
+    doc = "Triangle meshes as base meshes of spline surfaces; see the README."
+)]
 
 mod build;
 mod fan;

@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use crate::ids::VertexId;
 use crate::improve::flip::{FlipGoal, flip_edges};
+use crate::improve::metric::Metric;
 use crate::improve::sliver::lift_slivers;
 use crate::improve::surface_mesh::SurfaceMesh;
 use crate::improve::{ImproveSettings, Improved};
@@ -110,7 +111,7 @@ pub fn remesh(
             work.split_until(faces, settings);
             work.collapse_until(faces, &guard);
         }
-        for goal in [FlipGoal::Valence, FlipGoal::Delaunay] {
+        for goal in [FlipGoal::Valence, FlipGoal::Delaunay(Metric::SPACE)] {
             report.flips += flip_edges(&mut work.surface, &guard, goal);
             report.moves += work.relax(settings, &guard);
         }

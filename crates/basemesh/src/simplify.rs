@@ -40,18 +40,21 @@ pub struct Simplified {
 /// Reduces a dense closed mesh near a smooth surface to `settings.faces` faces.
 ///
 /// 1. The vertices are smoothed along the surface, which removes the slivers of a marched mesh.
-/// 2. Down to `plain_factor` times the number of faces, edges are collapsed by quadric error alone.
+/// 2. Down to `plain_factor` times the number of faces, edges are collapsed by their mean quadric
+///    error alone.
 /// 3. From there every collapse is projected onto the surface and tested: no sliver, no face that
 ///    leans away from the surface, no edge along which the normal turns by more than
 ///    `max_turning_deg`, no valence below `min_valence`, unless that was worse before. If the guards
 ///    refuse everything, the mesh is improved as in step 4 and the guards give way one after the
 ///    other, in the order of [`Relaxation`].
 /// 4. Flips and smoothing under the same guards, see [`improve`](crate::improve).
+/// 5. Edges that turn too far, from end to end or to their middle, are split, and as many collapsed
+///    where that costs least.
 ///
 /// The topology is never changed: every component survives with its genus. A mesh that has no more
-/// faces than asked for goes through steps 1 and 4 only. Step 1 is left out where the mesh is not
-/// dense, with fewer than twice the faces asked for. Results do not depend on the number of threads, and
-/// scaling mesh and surface by a power of two scales the result bit for bit.
+/// faces than asked for goes through steps 4 and 5 only. Step 1 is left out where the mesh is not
+/// dense, with fewer than twice the faces asked for. Results do not depend on the number of threads,
+/// and scaling mesh and surface by a power of two scales the result bit for bit.
 ///
 /// See `docs/math/base-mesh.md`; quadrics as by Garland and Heckbert (1997).
 ///
@@ -161,6 +164,10 @@ const RELAXATIONS: [Relaxation; 5] = [
     Relaxation::Everything,
 ];
 
+/// Cosine of the lean of faces once quality gives way: what remains keeps edges in order around
+/// their vertices.
+const RELAXED_LEAN_COS: f64 = 0.1;
+
 /// The guard that is left at a level of relaxation.
 fn relaxed(guard: &Guard, relaxation: Relaxation) -> Guard {
     let mut result = *guard;
@@ -170,6 +177,7 @@ fn relaxed(guard: &Guard, relaxation: Relaxation) -> Guard {
     if relaxation >= Relaxation::Quality {
         result.min_quality = 0.4 * guard.min_quality;
         result.quality_keep = 0.5 * guard.quality_keep;
+        result.lean_cos = guard.lean_cos.min(RELAXED_LEAN_COS);
     }
     if relaxation >= Relaxation::Turning {
         result.turning_cos = (1.5 * guard.turning_cos.acos()).min(std::f64::consts::PI).cos();

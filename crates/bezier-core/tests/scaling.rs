@@ -1,4 +1,5 @@
 //! Everything of the dimension of a length scales with powers of two bit for bit.
+#![allow(clippy::float_cmp, reason = "scaling by a power of two keeps every bit")]
 
 mod common;
 

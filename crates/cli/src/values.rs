@@ -23,6 +23,13 @@ pub(crate) fn bound(text: &str) -> Result<f64, String> {
     })
 }
 
+/// A tolerance: a number above zero.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
+    finite(text).and_then(|value| {
+        if value > 0.0 { Ok(value) } else { Err("a tolerance must be above zero".into()) }
+    })
+}
+
 pub(crate) fn faces(text: &str) -> Result<usize, String> {
     let count: usize = text.parse().map_err(|_| format!("`{text}` is not a number of faces"))?;
     match count {

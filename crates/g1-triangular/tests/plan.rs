@@ -3,7 +3,7 @@
 mod common;
 
 use common::twisted;
-use g1_triangular::basemesh::FaceId;
+use g1_triangular::basemesh::{FaceId, HalfedgeId};
 use g1_triangular::{
     Fill, InnerPoints, JoinError, Plan, Rows, Settings, SmoothPatches, fill, join,
 };
@@ -39,7 +39,7 @@ fn choices_act_locally_and_stay_exact() {
     let mut other = plan.clone();
     other.rows[edge] = Rows::Nearest;
     let h = topology.canonical(edge);
-    let mut faces = [h, topology.twin(h).unwrap()].map(|h| h.face());
+    let mut faces = [h, topology.twin(h).unwrap()].map(HalfedgeId::face);
     faces.sort();
     let patches = it.construct(&other);
     assert_eq!(changed(&whole, &patches), faces, "rows");

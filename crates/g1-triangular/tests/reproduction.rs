@@ -1,4 +1,5 @@
 //! Surfaces that a net can represent are filled without error.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use g1_triangular::basemesh::{EdgeMap, Foot, SurfaceTarget, TriMesh};
 use g1_triangular::bezier_core::glam::DVec3;

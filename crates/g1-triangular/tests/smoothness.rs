@@ -1,5 +1,6 @@
 //! The smoothness condition holds for curves and data that belong to no surface; and the check of
 //! it can fail.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 mod common;
 
@@ -82,10 +83,9 @@ fn one_moved_control_point_is_seen() {
         }
         for i in 0..7 {
             let mut other = weights;
-            if i < 2 {
-                other.lambda[i] += step
-            } else {
-                other.mu[i - 2] += step
+            match i {
+                0 | 1 => other.lambda[i] += step,
+                _ => other.mu[i - 2] += step,
             }
             assert!(size(rows, other) >= 1e-3 * step, "{edge}: weight {i} is not seen");
         }

@@ -1,4 +1,5 @@
 //! Every curve that an independent implementation computed for the two given base meshes.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use bezier_core::SurfaceJet;
 use bezier_core::glam::{DMat3, DVec3};

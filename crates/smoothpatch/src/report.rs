@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use basemesh::{MeshQuality, SurfaceTarget};
 use serde::{Deserialize, Serialize};
 
+use crate::adapt::Adaptation;
 use crate::measure::{
     Continuity, Deviation, FaceDeviation, Interpolation, continuity, deviation, interpolation,
 };
@@ -32,6 +33,9 @@ pub struct Report {
     /// How the base mesh was made; missing if it was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub base_mesh: Option<BaseMeshReport>,
+    /// How an accuracy was reached; missing if none was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub adaptation: Option<Adaptation>,
     /// Seconds by stage, wall clock.
     pub seconds: BTreeMap<String, f64>,
 }
@@ -76,6 +80,7 @@ pub fn report(
             retreats: retreats(surface),
             mean_sqp_iterations: surface.curve_summary().mean_iterations,
             base_mesh: base_mesh(surface),
+            adaptation: surface.origin.adaptation,
             seconds: BTreeMap::new(),
         };
         (report, faces)

@@ -3,6 +3,7 @@
 //! A checksum written down in the repository would not do: the linear algebra and the functions of
 //! the C library may round differently on another machine. So every comparison is made on one
 //! machine, between two runs or, for the build without threads, between two builds.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use smoothpatch::basemesh::{EdgeMap, VertexId, VertexMap};
 use smoothpatch::implicit::NamedShape;

@@ -1,7 +1,8 @@
 //! Meshes and surfaces that cannot be fitted: an error that names the place, never NaN.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use smoothpatch::basemesh::glam::DVec3;
-use smoothpatch::basemesh::{MeshError, TriMesh};
+use smoothpatch::basemesh::{MeshError, TriMesh, VertexId};
 use smoothpatch::g1_triangular::JoinError;
 use smoothpatch::hermite_sqp::EdgeProblemError;
 use smoothpatch::implicit::{Formula, ImplicitSurface, Sphere};
@@ -17,7 +18,7 @@ fn fit(field: &dyn ImplicitSurface, mesh: TriMesh, method: Method) -> Result<G1S
 fn refuse(field: &dyn ImplicitSurface, mesh: &TriMesh) -> FitError {
     let [error, other] = [Method::Published, Method::Refined]
         .map(|method| fit(field, mesh.clone(), method).expect_err("no surface can be fitted"));
-    assert_eq!(error.to_string(), other.to_string());
+    assert_eq!(error.to_string(), other.to_string(), "both methods say the same");
     error
 }
 
@@ -59,7 +60,7 @@ fn an_open_mesh() {
     match refuse(&Sphere::default(), &open) {
         FitError::Join(JoinError::OpenSurface { edge }) => {
             let ends = open.topology().edges().nth(edge).map(|e| open.topology().edge_vertices(e));
-            let ends = ends.unwrap().map(|v| v.index());
+            let ends = ends.unwrap().map(VertexId::index);
             assert!(ends.iter().all(|end| hole.contains(end)), "{ends:?} is not in {hole:?}");
         }
         other => panic!("{other}"),

@@ -1,4 +1,5 @@
 //! What a motion of everything, or another numbering of the mesh, changes.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use proptest::prelude::*;
 use smoothpatch::basemesh::glam::{DMat3, DVec3};
@@ -47,7 +48,7 @@ fn nets(surface: &G1Surface) -> Vec<[DVec3; 36]> {
 }
 
 fn largest_distance(a: &[[DVec3; 36]], b: &[[DVec3; 36]]) -> f64 {
-    assert_eq!(a.len(), b.len());
+    assert_eq!(a.len(), b.len(), "as many patches");
     a.iter().flatten().zip(b.iter().flatten()).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max)
 }
 

@@ -1,4 +1,5 @@
 //! Observed orders of approximation on small meshes: edges halve from level to level.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test with figures for people")]
 
 use smoothpatch::basemesh::{SurfaceTarget, TriMesh};
 use smoothpatch::hermite_sqp::CurveRefinement;
@@ -23,7 +24,7 @@ fn errors(field: &dyn ImplicitSurface, mesh: TriMesh, method: Method) -> [f64; 3
     });
     let curves = on_curves.fold(0.0, f64::max);
     let (patches, _) = deviation(&surface.patches.nets, &target, diagonal);
-    assert_eq!(patches.folded, Vec::<usize>::new());
+    assert_eq!(patches.folded, Vec::<usize>::new(), "folded patches");
     [curves, patches.max, patches.max_normal_deg]
 }
 

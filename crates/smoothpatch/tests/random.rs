@@ -1,4 +1,5 @@
 //! Random smooth surfaces, random base meshes: exactly smooth and interpolating, in both methods.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;

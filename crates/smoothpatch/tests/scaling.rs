@@ -1,6 +1,7 @@
 //! No hidden length: everything 2¹² times as large or as small gives the same surface in large or
 //! in small, bit for bit, from the field to the last control point. One tolerance without a length
 //! anywhere on the way makes this fail.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use smoothpatch::implicit::{Aabb, ImplicitSurface, NamedShape};
 use smoothpatch::{G1Surface, Method, Settings, Silent, fit};

@@ -1,5 +1,6 @@
 //! Second-order data that belong to no implicit function, and edges in special position: the
 //! construction needs nothing but data at the vertices to be exactly smooth.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use smoothpatch::basemesh::glam::{DMat3, DVec3};
 use smoothpatch::basemesh::{EdgeId, Foot, SurfaceTarget, TriMesh, VertexId, VertexMap};

@@ -157,22 +157,12 @@ impl EditMesh {
         self.fan(v).map(length).fold(0.0, f64::max).sqrt()
     }
 
-    pub(crate) fn are_adjacent(&self, a: VertexId, b: VertexId) -> bool {
-        self.fan(a).any(|h| self.target(h) == b)
+    pub(crate) fn length(&self, h: HalfedgeId) -> f64 {
+        self.position(self.origin(h)).distance(self.position(self.target(h)))
     }
 
-    /// Whether collapsing the edge of `h` keeps the surface a manifold of the same topology: its
-    /// ends have exactly two common neighbours, and neither of these would drop below valence 3.
-    pub(crate) fn satisfies_link_condition(&self, h: HalfedgeId, scratch: &mut RingMarks) -> bool {
-        let (a, b) = (self.origin(h), self.target(h));
-        let stamp = scratch.next_stamp(self.vertex_slots());
-        for g in self.fan(a) {
-            scratch.marks[self.target(g).index()] = stamp;
-        }
-        let common =
-            self.fan(b).filter(|&g| scratch.marks[self.target(g).index()] == stamp).count();
-        let deep = |v: VertexId| self.fan(v).nth(3).is_some();
-        common == 2 && deep(self.apex(h)) && deep(self.apex(self.twin(h)))
+    pub(crate) fn are_adjacent(&self, a: VertexId, b: VertexId) -> bool {
+        self.fan(a).any(|h| self.target(h) == b)
     }
 
     /// Merges the target of `h` into its origin, which keeps its id and its position.
@@ -308,23 +298,5 @@ impl EditMesh {
         self.compact();
         let faces: Vec<[usize; 3]> = self.corners.iter().map(|f| f.map(VertexId::index)).collect();
         TriMesh::new(self.positions, &faces).expect("invariant: edits keep a finite manifold mesh")
-    }
-}
-
-/// Scratch marks over vertices, so that rings are intersected without allocating.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct RingMarks {
-    marks: Vec<u32>,
-    stamp: u32,
-}
-
-impl RingMarks {
-    fn next_stamp(&mut self, vertices: usize) -> u32 {
-        if self.marks.len() < vertices || self.stamp == u32::MAX {
-            self.marks = vec![0; vertices];
-            self.stamp = 0;
-        }
-        self.stamp += 1;
-        self.stamp
     }
 }

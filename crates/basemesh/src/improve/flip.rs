@@ -1,18 +1,17 @@
 //! Edge flips towards even valences or the Delaunay condition.
 
-use glam::DVec3;
-
 use super::guard::{Guard, OldFace, Refusal};
+use super::metric::Metric;
 use super::surface_mesh::SurfaceMesh;
 use crate::ids::{HalfedgeId, VertexId};
 
 /// What flips are for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FlipGoal {
     /// Valences near 6: the sum of squared differences falls with every flip.
     Valence,
-    /// Opposite angles that sum to at most 180°.
-    Delaunay,
+    /// Opposite angles that sum to at most 180°, measured with the lengths of a metric.
+    Delaunay(Metric),
 }
 
 /// Cap on the sweeps over all edges; observed are up to eight, most flips happen in the first two.
@@ -28,7 +27,9 @@ pub(crate) fn flip_edges(surface: &mut SurfaceMesh<'_>, guard: &Guard, goal: Fli
     for _ in 0..MAX_SWEEPS {
         let before = flips;
         for h in (0..3 * surface.mesh.face_slots()).map(HalfedgeId::new) {
-            let candidate = surface.mesh.is_live_halfedge(h) && h < surface.mesh.twin(h);
+            let candidate = surface.mesh.is_live_halfedge(h)
+                && h < surface.mesh.twin(h)
+                && !surface.is_resting_edge(h);
             if candidate && helps(surface, h, goal) && check_flip(surface, guard, h).is_ok() {
                 surface.mesh.flip(h);
                 flips += 1;
@@ -51,7 +52,12 @@ fn helps(surface: &SurfaceMesh<'_>, h: HalfedgeId, goal: FlipGoal) -> bool {
     let corners = quadrilateral(surface, h);
     match goal {
         FlipGoal::Valence => valence_gain(corners.map(|v| surface.mesh.valence(v))) > 0,
-        FlipGoal::Delaunay => !is_delaunay(corners.map(|v| surface.mesh.position(v))),
+        FlipGoal::Delaunay(metric) => {
+            let [a, b, c, d] = corners;
+            let squared = |v, w| metric.squared(surface, v, w);
+            let left = [squared(b, c), squared(c, a)];
+            !is_delaunay(squared(a, b), left, [squared(b, d), squared(d, a)])
+        }
     }
 }
 
@@ -62,15 +68,15 @@ fn valence_gain([a, b, c, d]: [usize; 4]) -> i64 {
     valence(a) + valence(b) - valence(c) - valence(d) - 2
 }
 
-/// Whether the angles at `c` and `d`, opposite the edge `ab`, sum to at most a straight angle.
-fn is_delaunay([a, b, c, d]: [DVec3; 4]) -> bool {
-    let angle = |apex: DVec3| {
-        let (u, v) = (a - apex, b - apex);
-        let size = (u.length_squared() * v.length_squared()).sqrt();
-        (u.cross(v).length() / size, u.dot(v) / size)
+/// Whether the two angles opposite an edge sum to at most a straight angle; all lengths are squared,
+/// those of the other sides left and right of the edge.
+fn is_delaunay(edge: f64, left: [f64; 2], right: [f64; 2]) -> bool {
+    let angle = |[u, v]: [f64; 2]| {
+        let cos = (u + v - edge) / (2.0 * (u * v).sqrt());
+        ((1.0 - cos * cos).max(0.0).sqrt(), cos)
     };
-    let ((sin_c, cos_c), (sin_d, cos_d)) = (angle(c), angle(d));
-    sin_c * cos_d + cos_c * sin_d >= -DELAUNAY_SINE
+    let ((sin_l, cos_l), (sin_r, cos_r)) = (angle(left), angle(right));
+    sin_l * cos_r + cos_l * sin_r >= -DELAUNAY_SINE
 }
 
 /// Tests the two faces and the edge that a flip would make.
@@ -94,6 +100,8 @@ fn check_flip(surface: &SurfaceMesh<'_>, guard: &Guard, h: HalfedgeId) -> Result
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     #[test]
@@ -110,9 +118,16 @@ mod tests {
 
     #[test]
     fn four_points_on_a_circle_are_delaunay_both_ways() {
-        let [a, b, c, d] =
-            [0.1_f64, 2.2, 1.0, 4.0].map(|t| 3.0 * DVec3::new(t.cos(), t.sin(), 0.0));
-        assert!(is_delaunay([a, b, c, d]), "the edge as it is");
-        assert!(is_delaunay([c, d, b, a]), "the edge after a flip");
+        let points = [0.1_f64, 2.2, 1.0, 4.0].map(|t| 3.0 * DVec3::new(t.cos(), t.sin(), 0.0));
+        let delaunay = |[a, b, c, d]: [DVec3; 4]| {
+            let squared = |p: DVec3, q: DVec3| p.distance_squared(q);
+            let left = [squared(b, c), squared(c, a)];
+            is_delaunay(squared(a, b), left, [squared(b, d), squared(d, a)])
+        };
+        let [a, b, c, d] = points;
+        assert!(delaunay([a, b, c, d]), "the edge as it is");
+        assert!(delaunay([c, d, b, a]), "the edge after a flip");
+        assert!(delaunay([a, b, c, 1.1 * d]), "a corner outside the circle");
+        assert!(!delaunay([a, b, c, 0.9 * d]), "a corner inside the circle");
     }
 }

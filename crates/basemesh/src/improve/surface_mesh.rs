@@ -23,6 +23,8 @@ pub(crate) struct SurfaceMesh<'a> {
     /// Vertices that are not on the surface, because no foot was found near them. They keep their
     /// position and take their normal from their faces.
     pub(crate) off_surface: Vec<bool>,
+    /// Vertices that improvements leave where they are.
+    pub(crate) resting: Vec<bool>,
     pub(crate) target: &'a dyn SurfaceTarget,
 }
 
@@ -34,7 +36,9 @@ impl<'a> SurfaceMesh<'a> {
     /// The first edge that has one face only.
     pub(crate) fn new(mesh: &TriMesh, target: &'a dyn SurfaceTarget) -> Result<Self, EdgeId> {
         let mesh = EditMesh::from_mesh(mesh)?;
-        let mut result = Self { mesh, normals: Vec::new(), off_surface: Vec::new(), target };
+        let resting = vec![false; mesh.vertex_slots()];
+        let mut result =
+            Self { mesh, normals: Vec::new(), off_surface: Vec::new(), resting, target };
         result.project_all();
         Ok(result)
     }
@@ -67,11 +71,40 @@ impl<'a> SurfaceMesh<'a> {
         self.target.foot(near).filter(|foot| is_near(foot, near, reach))
     }
 
-    /// Puts a vertex on a surface point.
+    /// Surface points near several points, `None` where there is none.
+    pub(crate) fn feet(&self, points: &[DVec3]) -> Vec<Option<Foot>> {
+        feet(points, self.target)
+    }
+
+    /// Puts a vertex on a surface point; it rests no longer.
     pub(crate) fn put(&mut self, v: VertexId, foot: Foot) {
         self.mesh.set_position(v, foot.point);
         self.normals[v.index()] = foot.normal;
         self.off_surface[v.index()] = false;
+        self.resting[v.index()] = false;
+    }
+
+    /// Whether a vertex is alive and does not rest.
+    #[inline]
+    pub(crate) fn is_movable(&self, v: VertexId) -> bool {
+        self.mesh.is_live_vertex(v) && !self.resting[v.index()]
+    }
+
+    /// Whether both ends of an edge rest.
+    #[inline]
+    pub(crate) fn is_resting_edge(&self, h: HalfedgeId) -> bool {
+        self.resting[self.mesh.origin(h).index()] && self.resting[self.mesh.target(h).index()]
+    }
+
+    /// Wakes the vertices that have an edge to one that does not rest.
+    pub(crate) fn wake_neighbours(&mut self) {
+        let before = self.resting.clone();
+        let awake = |h: &HalfedgeId| !before[self.mesh.origin(*h).index()];
+        let halfedges = (0..3 * self.mesh.face_slots()).map(HalfedgeId::new);
+        let live = halfedges.filter(|&h| self.mesh.is_live_halfedge(h));
+        for h in live.filter(awake) {
+            self.resting[self.mesh.target(h).index()] = false;
+        }
     }
 
     /// Splits the edge of `h` at a surface point.
@@ -79,6 +112,7 @@ impl<'a> SurfaceMesh<'a> {
         self.mesh.split(h, foot.point);
         self.normals.push(foot.normal);
         self.off_surface.push(false);
+        self.resting.push(false);
     }
 
     #[inline]
@@ -100,6 +134,7 @@ impl<'a> SurfaceMesh<'a> {
         let kept = self.mesh.compact();
         keep(&mut self.normals, &kept);
         keep(&mut self.off_surface, &kept);
+        keep(&mut self.resting, &kept);
         kept
     }
 

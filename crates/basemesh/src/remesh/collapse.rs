@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::{Remesh, RemeshSettings};
 use crate::ids::{HalfedgeId, VertexId};
-use crate::improve::edit_mesh::RingMarks;
 use crate::improve::guard::Guard;
+use crate::improve::link::RingMarks;
 use crate::simplify::check_collapse;
 use crate::target::Foot;
 

@@ -9,8 +9,8 @@ use super::merge::merge;
 use super::quadric::Quadric;
 use super::report::Refusals;
 use crate::ids::{HalfedgeId, VertexId};
-use crate::improve::edit_mesh::RingMarks;
 use crate::improve::guard::{Guard, OldFace, Refusal};
+use crate::improve::link::RingMarks;
 use crate::improve::surface_mesh::SurfaceMesh;
 use crate::target::Foot;
 

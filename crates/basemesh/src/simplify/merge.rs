@@ -13,7 +13,7 @@ const FARTHEST_OPTIMUM: f64 = 1.5;
 /// A proposed collapse.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Merge {
-    /// Quadric error at [`position`](Self::position), length⁴.
+    /// Mean squared distance of [`position`](Self::position) from the planes, length².
     pub(super) cost: f64,
     /// Where the merged vertex minimises the error.
     pub(super) position: DVec3,
@@ -35,7 +35,7 @@ pub(super) fn merge(mesh: &EditMesh, quadrics: &[Quadric], h: HalfedgeId) -> Mer
         let better = |best, x| if sum.value(x) < sum.value(best) { x } else { best };
         [DVec3::ZERO, edge].into_iter().fold(0.5 * edge, better)
     });
-    Merge { cost: sum.value(x).max(0.0), position: pa + x, quadric: sum.moved_by(x) }
+    Merge { cost: sum.mean(x), position: pa + x, quadric: sum.moved_by(x) }
 }
 
 /// The form of every vertex: the planes of its faces.

@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::merge::{Merge, merge};
 use super::quadric::Quadric;
 use crate::ids::{FaceId, HalfedgeId};
-use crate::improve::edit_mesh::{EditMesh, RingMarks};
+use crate::improve::edit_mesh::EditMesh;
+use crate::improve::link::RingMarks;
 use crate::improve::surface_mesh::keep;
 use crate::maps::FaceMap;
 

@@ -93,7 +93,7 @@ pub enum Relaxation {
     None,
     /// Vertices of valence 3 were allowed.
     Valence,
-    /// ... and triangles of less than half the quality.
+    /// ... and triangles of less than half the quality, and faces that lean farther.
     Quality,
     /// ... and edges along which the surface turns by up to one and a half times as much.
     Turning,

@@ -16,18 +16,22 @@ pub struct SimplifySettings {
     /// Weight of distances to vertices against distances to planes in the cost of a collapse.
     /// Default 1e-3: it decides where edges turn by less than about two degrees.
     pub isotropy: f64,
-    /// Most rounds that split edges beyond `max_turning_deg` and collapse others instead.
+    /// Most rounds that split edges beyond the two turning limits and collapse others instead.
     /// Default 8.
     pub exchange_rounds: usize,
+    /// Twice the angle in degrees between the surface normal near the middle of an edge and those
+    /// at its ends, above which the edge is split if faces can be spared elsewhere. Default 60: an
+    /// edge over a bend that both its ends miss turns little from end to end.
+    pub max_middle_turning_deg: f64,
     /// See [`ImproveSettings::max_turning_deg`]. Default 50.
     pub max_turning_deg: f64,
-    /// See [`ImproveSettings::min_quality`]. Default 0.25.
+    /// See [`ImproveSettings::min_quality`]. Default 0.4.
     pub min_quality: f64,
     /// See [`ImproveSettings::quality_keep`]. Default 0.95.
     pub quality_keep: f64,
     /// See [`ImproveSettings::flip_cos`]. Default 0.2.
     pub flip_cos: f64,
-    /// See [`ImproveSettings::lean_cos`]. Default 0.1.
+    /// See [`ImproveSettings::lean_cos`]. Default 0.75.
     pub lean_cos: f64,
     /// See [`ImproveSettings::min_valence`]. Default 4.
     pub min_valence: usize,
@@ -35,10 +39,8 @@ pub struct SimplifySettings {
     pub smoothing_iterations: usize,
     /// See [`ImproveSettings::rounds`]. Default 2.
     pub rounds: usize,
-    /// See [`ImproveSettings::density_exponent`]. Default 0.5.
-    pub density_exponent: f64,
-    /// See [`ImproveSettings::density_offset`]. Default 0.02.
-    pub density_offset: f64,
+    /// See [`ImproveSettings::turning_weight`]. Default 1.
+    pub turning_weight: f64,
 }
 
 impl SimplifySettings {
@@ -52,6 +54,7 @@ impl SimplifySettings {
             relaxation_iterations: 6,
             isotropy: 1e-3,
             exchange_rounds: 8,
+            max_middle_turning_deg: 60.0,
             max_turning_deg: improve.max_turning_deg,
             min_quality: improve.min_quality,
             quality_keep: improve.quality_keep,
@@ -60,8 +63,7 @@ impl SimplifySettings {
             min_valence: improve.min_valence,
             smoothing_iterations: improve.smoothing_iterations,
             rounds: improve.rounds,
-            density_exponent: improve.density_exponent,
-            density_offset: improve.density_offset,
+            turning_weight: improve.turning_weight,
         }
     }
 
@@ -77,8 +79,7 @@ impl SimplifySettings {
             min_valence: self.min_valence,
             smoothing_iterations: self.smoothing_iterations,
             rounds: self.rounds,
-            density_exponent: self.density_exponent,
-            density_offset: self.density_offset,
+            turning_weight: self.turning_weight,
         }
     }
 }

@@ -4,14 +4,17 @@ use std::f64::consts::TAU;
 
 use basemesh::glam::DVec3;
 use basemesh::{Foot, SurfaceTarget, TriMesh, VertexId};
+#[cfg(feature = "polygonize")]
 use implicit::{ImplicitField, ProjectionSettings, project_with_gradient};
 
 /// A field seen as the target of a mesh of size `length`.
+#[cfg(feature = "polygonize")]
 pub(crate) struct FieldTarget<'a> {
     pub(crate) field: &'a dyn ImplicitField,
     pub(crate) length: f64,
 }
 
+#[cfg(feature = "polygonize")]
 impl SurfaceTarget for FieldTarget<'_> {
     fn foot(&self, near: DVec3) -> Option<Foot> {
         project_with_gradient(self.field, near, self.length, &ProjectionSettings::default())

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use smoothpatch::Report;
 use smoothpatch::io::SceneSurface;
+use smoothpatch::measure::Certificate;
 
 use super::outputs::{Written, write_file};
 use super::task::{BaseMesh, Task, method_name};
@@ -24,15 +25,25 @@ pub(crate) struct ReportFile<'a> {
     base_mesh_file: Option<PathBuf>,
     #[serde(flatten)]
     report: &'a Report,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certificate: Option<&'a Certificate>,
     files: &'a [Written],
 }
 
 impl<'a> ReportFile<'a> {
-    pub(crate) fn new(task: &'a Task, report: &'a Report, files: &'a [Written]) -> Self {
+    pub(crate) fn new(
+        task: &'a Task,
+        report: &'a Report,
+        certificate: Option<&'a Certificate>,
+        files: &'a [Written],
+    ) -> Self {
         let scene = &task.chosen.scene;
         let (region, faces_asked, base_mesh_file) = match &task.base {
             BaseMesh::Made { region, faces } => {
                 (Some([region.min.to_array(), region.max.to_array()]), Some(*faces), None)
+            }
+            BaseMesh::Adapted { region, .. } => {
+                (Some([region.min.to_array(), region.max.to_array()]), None, None)
             }
             BaseMesh::Given { file, .. } => (None, None, Some(file.clone())),
         };
@@ -45,6 +56,7 @@ impl<'a> ReportFile<'a> {
             faces_asked,
             base_mesh_file,
             report,
+            certificate,
             files,
         }
     }

@@ -1,21 +1,26 @@
 //! The table at the end.
 
-use smoothpatch::{Report, Stage};
+use smoothpatch::measure::Certificate;
+use smoothpatch::{Adaptation, Distance, Report, Stage, Tolerance};
 
 use super::outputs::Written;
 use super::task::{BaseMesh, Task, method_name};
-use crate::table::{Table, bytes, degrees, of_diagonal, yes_no};
+use crate::table::{Table, bytes, degrees, length, of_diagonal, yes_no};
 use crate::values::region_text;
 
 pub(crate) fn summary(
     task: &Task,
     report: &Report,
+    certificate: Option<&Certificate>,
     written: &[Written],
     seconds_writing: f64,
 ) -> String {
     let mut table = Table::default();
     origin(&mut table, task);
     quality(&mut table, report);
+    if let Some(certificate) = certificate {
+        proof(&mut table, certificate);
+    }
     table.gap();
     for stage in Stage::ALL {
         if let Some(seconds) = report.seconds.get(stage.name()) {
@@ -34,13 +39,44 @@ pub(crate) fn summary(
 
 fn origin(table: &mut Table, task: &Task) {
     match &task.base {
-        BaseMesh::Made { region, .. } => table.row("region", region_text(region)),
+        BaseMesh::Made { region, .. } | BaseMesh::Adapted { region, .. } => {
+            table.row("region", region_text(region));
+        }
         BaseMesh::Given { file, .. } => table.row("base mesh", file.display()),
     }
 }
 
+fn proof(table: &mut Table, certificate: &Certificate) {
+    let Certificate { bound, loosest_face, open, .. } = certificate;
+    let of_all = if open.is_empty() {
+        String::new()
+    } else {
+        format!(", without {} patches that have none", open.len())
+    };
+    table.row(
+        "proven bound",
+        format!("{} (loosest at patch {loosest_face}){of_all}", of_diagonal(*bound)),
+    );
+}
+
+fn accuracy(table: &mut Table, adaptation: &Adaptation) {
+    let Tolerance { distance, normal_deg } = adaptation.tolerance;
+    let mut asked = match distance {
+        Distance::Relative(part) => of_diagonal(part),
+        Distance::Absolute(value) => length(value),
+    };
+    if let Some(angle) = normal_deg {
+        asked += &format!(", normals {}", degrees(angle));
+    }
+    let met = if adaptation.met { "met" } else { "NOT met" };
+    table.row("tolerance", format!("{asked}: {met} after {} base meshes", adaptation.rounds));
+}
+
 fn quality(table: &mut Table, report: &Report) {
     let (joined, deviation) = (&report.continuity, &report.deviation);
+    if let Some(adaptation) = &report.adaptation {
+        accuracy(table, adaptation);
+    }
     table.row("faces", joined.faces);
     table.row("Euler characteristic", joined.euler_characteristic);
     table.row("components", joined.components);

@@ -8,7 +8,8 @@ use smoothpatch::implicit::{Aabb, ImplicitSurface};
 use smoothpatch::io::read_obj_file;
 use smoothpatch::scene::{base_mesh_of, field_of, region_of};
 use smoothpatch::{
-    FitError, G1Surface, Method, Progress, Settings, find_region, fit, fit_base_mesh,
+    Distance, FitError, G1Surface, Method, Progress, Settings, Tolerance, find_region, fit,
+    fit_base_mesh, fit_to_tolerance,
 };
 
 use super::FitArguments;
@@ -28,6 +29,8 @@ pub(crate) struct Task {
 pub(crate) enum BaseMesh {
     /// Made by polygonizing and simplifying.
     Made { region: Aabb, faces: usize },
+    /// Made and changed until an accuracy is reached.
+    Adapted { region: Aabb, tolerance: Tolerance },
     /// Read from a file.
     Given { file: PathBuf, mesh: TriMesh },
 }
@@ -39,9 +42,17 @@ impl Task {
             .scene(arguments.scene.as_deref())?
             .ok_or_else(|| anyhow!("no surface is given"))?;
         let field = field_of(&chosen.scene.surface)?;
-        let base = match given_mesh(arguments, &chosen)? {
-            Some((file, mesh)) => BaseMesh::Given { file, mesh },
-            None => BaseMesh::Made {
+        let base = match (tolerance(arguments), given_mesh(arguments, &chosen)?) {
+            (Some(_), Some((file, _))) => bail!(
+                "{}: a base mesh is not changed, so no accuracy can be asked for; leave \
+                 --tolerance out or take a scene without base mesh",
+                file.display()
+            ),
+            (Some(tolerance), None) => {
+                BaseMesh::Adapted { region: region(arguments, &chosen, &*field)?, tolerance }
+            }
+            (None, Some((file, mesh))) => BaseMesh::Given { file, mesh },
+            (None, None) => BaseMesh::Made {
                 region: region(arguments, &chosen, &*field)?,
                 faces: arguments.faces.unwrap_or(chosen.scene.faces),
             },
@@ -55,6 +66,9 @@ impl Task {
     pub(crate) fn fit(&self, progress: &mut dyn Progress) -> anyhow::Result<G1Surface> {
         let fitted = match &self.base {
             BaseMesh::Made { region, .. } => fit(&*self.field, region, &self.settings, progress),
+            BaseMesh::Adapted { region, tolerance } => {
+                fit_to_tolerance(&*self.field, region, tolerance, &self.settings, progress)
+            }
             BaseMesh::Given { mesh, .. } => {
                 fit_base_mesh(&*self.field, mesh.clone(), &self.settings, progress)
             }
@@ -69,7 +83,7 @@ impl Task {
     pub(crate) fn files_read(&self) -> Vec<&Path> {
         let mesh = match &self.base {
             BaseMesh::Given { file, .. } => Some(file.as_path()),
-            BaseMesh::Made { .. } => None,
+            BaseMesh::Made { .. } | BaseMesh::Adapted { .. } => None,
         };
         self.chosen.file.as_deref().into_iter().chain(mesh).collect()
     }
@@ -87,9 +101,25 @@ impl BaseMesh {
     fn faces(&self) -> usize {
         match self {
             Self::Made { faces, .. } => *faces,
+            Self::Adapted { .. } => 0,
             Self::Given { mesh, .. } => mesh.topology().face_count(),
         }
     }
+}
+
+/// Distance that is asked for with a normal tolerance alone, in diagonals.
+const USUAL_DISTANCE: f64 = 1e-4;
+
+/// The accuracy that is asked for, if any.
+fn tolerance(arguments: &FitArguments) -> Option<Tolerance> {
+    let distance = match (arguments.tolerance, arguments.absolute) {
+        (Some(length), true) => Distance::Absolute(length),
+        (Some(part), false) => Distance::Relative(part),
+        (None, _) => Distance::Relative(USUAL_DISTANCE),
+    };
+    let normal_deg = arguments.normal_tolerance;
+    (arguments.tolerance.is_some() || normal_deg.is_some())
+        .then_some(Tolerance { distance, normal_deg })
 }
 
 /// The base mesh that the options or the scene name, unless a region is given to look in.

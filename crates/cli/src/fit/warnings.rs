@@ -5,6 +5,9 @@ use smoothpatch::Report;
 /// Far above the rounding of exact constructions.
 const SMOOTH_DEG: f64 = 1e-6;
 
+/// Normals of a surface that is resolved are closer than that.
+const LEANING_DEG: f64 = 30.0;
+
 /// One sentence for each flaw; none for a good result.
 pub(crate) fn warnings(report: &Report) -> Vec<String> {
     let (joined, deviation) = (&report.continuity, &report.deviation);
@@ -15,6 +18,19 @@ pub(crate) fn warnings(report: &Report) -> Vec<String> {
              for the grid; try a smaller region or more faces"
                 .to_owned(),
         );
+    }
+    if report.adaptation.is_some_and(|adaptation| !adaptation.met) {
+        warnings.push(format!(
+            "the tolerance is not met: {:.2e} of the diagonal is reached",
+            deviation.max
+        ));
+    }
+    if deviation.max_normal_deg > LEANING_DEG {
+        warnings.push(format!(
+            "a patch leans by {:.0}° from the surface: there is a singular point or an edge, or \
+             more faces are needed (the largest distance is at patch {})",
+            deviation.max_normal_deg, deviation.worst_face
+        ));
     }
     if !deviation.folded.is_empty() {
         warnings.push(format!(

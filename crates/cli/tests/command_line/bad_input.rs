@@ -211,3 +211,17 @@ fn files_to_check() {
         refuses(&place, &[&["check"], arguments].concat(), &[fragment]);
     }
 }
+
+#[test]
+fn tolerances_that_mean_nothing() {
+    fit_refuses(
+        &[
+            &["--shape", "sphere", "--tolerance", "0"],
+            &["--shape", "sphere", "--tolerance", "nan"],
+            &["--shape", "sphere", "--tolerance", "1e-18"],
+            &["--shape", "sphere", "--tolerance", "1e-5", "--faces", "40"],
+            &["--shape", "sphere", "--absolute"],
+        ],
+        &[&["above zero"], &["finite"], &["1e-11"], &["--faces"], &["--tolerance"]],
+    );
+}

@@ -185,3 +185,25 @@ fn a_surface_with_edges_is_fitted_with_warnings() {
     let run = place.run_with(&[&cube[..], &["-o", "b.vtu", "--quiet"]].concat());
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
 }
+
+#[test]
+fn an_accuracy_is_reached_and_checked() {
+    let place = Workplace::new();
+    let table =
+        place.succeed("fit --shape torus --tolerance 1e-5 -o t.vtu --report t.json --certify");
+    assert!(table.contains("1.00e-5 of the diagonal: met"), "{table}");
+    assert!(table.contains("proven bound"), "{table}");
+    let report = place.json("t.json");
+    assert_eq!(report["adaptation"]["met"], true);
+    assert!(report["deviation"]["max"].as_f64().unwrap() <= 1e-5, "{report}");
+    let proven = report["certificate"]["bound"].as_f64().unwrap();
+    assert!(proven >= report["deviation"]["max"].as_f64().unwrap(), "{report}");
+    place.succeed("check t.vtu --shape torus --max-deviation 1e-5 --max-folds 0");
+}
+
+#[test]
+fn a_normal_tolerance_alone() {
+    let place = Workplace::new();
+    place.succeed("fit --shape sphere --normal-tolerance 0.05 -o s.vtu");
+    place.succeed("check s.vtu --shape sphere --max-normal-error 0.05 --max-deviation 1e-4");
+}

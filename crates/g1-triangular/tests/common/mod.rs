@@ -1,4 +1,5 @@
 //! A twisted network of curves over arbitrary second-order data: no surface has it.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 #![allow(dead_code, reason = "each test file uses a part")]
 
 use g1_triangular::basemesh::{EdgeMap, Foot, SurfaceTarget, TriMesh, VertexId, VertexMap};
