@@ -9,7 +9,7 @@ use crate::jet2::Jet2;
 
 /// A closure over [`Jet2`] as a field with exact gradient and Hessian.
 ///
-/// Every evaluation computes the full jet, and both enclosures are [`Interval::ENTIRE`], because a
+/// Every evaluation computes the full jet, and all enclosures are [`Interval::ENTIRE`], because a
 /// closure over one number type cannot be asked for another: where that matters, write an
 /// [`Expression`](crate::Expression).
 /// (A wrapper, because an implementation for every `Fn` would collide with those for references.)

@@ -67,6 +67,10 @@ macro_rules! field_from_expression {
                 let variables = $crate::Jet1::variables(region.intervals());
                 $crate::Expression::eval(self, variables).gradient
             }
+            fn hessian_enclosure(&self, region: &$crate::Aabb) -> [$crate::Interval; 6] {
+                let variables = $crate::Jet2::variables(region.intervals());
+                $crate::Expression::eval(self, variables).hessian
+            }
         }
     )+};
 }

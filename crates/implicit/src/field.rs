@@ -95,6 +95,21 @@ pub trait BoundedField: ImplicitField {
         let _ = region;
         [Interval::ENTIRE; 3]
     }
+
+    /// Intervals that contain the second derivatives xx, yy, zz, xy, yz, zx of every Hessian that
+    /// [`TwiceDifferentiable::jet`] returns at a point of `region` where they are not NaN; rounding is
+    /// outward.
+    ///
+    /// They also contain all slopes of the gradient: with these intervals as a symmetric matrix H, the
+    /// exact ∇f(q) − ∇f(p) lies in H (q − p) for any p and q in `region` between which the field is
+    /// defined throughout.
+    /// The width shrinks at least in proportion to the box where the field is smooth.
+    /// At a kink (of `abs`, `min`, `max`), a jump or a pole, the second derivatives across it are
+    /// [`Interval::ENTIRE`], and for fields that know nothing about their Hessian all six are.
+    fn hessian_enclosure(&self, region: &Aabb) -> [Interval; 6] {
+        let _ = region;
+        [Interval::ENTIRE; 6]
+    }
 }
 
 /// All that the surface pipeline needs: derivatives and enclosure.
@@ -141,6 +156,9 @@ macro_rules! forward_to_pointee {
             }
             fn gradient_enclosure(&self, region: &Aabb) -> [Interval; 3] {
                 (**self).gradient_enclosure(region)
+            }
+            fn hessian_enclosure(&self, region: &Aabb) -> [Interval; 6] {
+                (**self).hessian_enclosure(region)
             }
         }
     )*};

@@ -162,6 +162,10 @@ impl BoundedField for Formula {
     fn gradient_enclosure(&self, region: &Aabb) -> [Interval; 3] {
         self.tape.evaluate(Jet1::variables(region.intervals())).gradient
     }
+
+    fn hessian_enclosure(&self, region: &Aabb) -> [Interval; 6] {
+        self.tape.evaluate(Jet2::variables(region.intervals())).hessian
+    }
 }
 
 /// As text, constants included: a formula read back is the same field.

@@ -5,6 +5,7 @@ mod jet;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+pub(crate) use self::jet::choices_over_a_box;
 use crate::number::Number;
 
 /// All numbers from `lo` to `hi`, both ends included; an infinite end means unbounded.

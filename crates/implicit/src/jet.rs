@@ -3,63 +3,80 @@
 
 use crate::number::Number;
 
-/// A function of one variable at one point: value, first and second derivative.
+/// A function of one variable at one point, or over an interval: value, first and second
+/// derivative.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Outer {
-    pub(crate) value: f64,
-    pub(crate) first: f64,
-    pub(crate) second: f64,
+pub(crate) struct Outer<T> {
+    pub(crate) value: T,
+    pub(crate) first: T,
+    pub(crate) second: T,
 }
 
-impl Outer {
-    pub(crate) fn powi(u: f64, n: i32) -> Self {
+/// The functions whose derivatives are the same terms for points and for intervals.
+impl<T: Number> Outer<T> {
+    #[inline]
+    pub(crate) fn square(u: T) -> Self {
+        Self { value: u.square(), first: u * 2.0, second: T::constant(2.0) }
+    }
+
+    #[inline]
+    pub(crate) fn powi(u: T, n: i32) -> Self {
+        let [zero, one] = [0.0, 1.0].map(T::constant);
         // n = 0 and 1 are separate, so that 0 · u⁻¹ does not become NaN at u = 0
         match n {
-            0 => Self { value: 1.0, first: 0.0, second: 0.0 },
-            1 => Self { value: u, first: 1.0, second: 0.0 },
+            0 => Self { value: one, first: zero, second: zero },
+            1 => Self { value: u, first: one, second: zero },
             _ => {
                 let degree = f64::from(n);
                 Self {
-                    value: Number::powi(u, n),
-                    first: degree * Number::powi(u, n.saturating_sub(1)),
-                    second: degree * (degree - 1.0) * Number::powi(u, n.saturating_sub(2)),
+                    value: u.powi(n),
+                    first: u.powi(n.saturating_sub(1)) * degree,
+                    second: u.powi(n.saturating_sub(2)) * (T::constant(degree) * (degree - 1.0)),
                 }
             }
         }
     }
 
+    #[inline]
+    pub(crate) fn sqrt(u: T) -> Self {
+        let value = u.sqrt();
+        let first = T::constant(0.5) / value;
+        Self { value, first, second: first * -0.5 / u }
+    }
+
+    #[inline]
+    pub(crate) fn exp(u: T) -> Self {
+        let value = u.exp();
+        Self { value, first: value, second: value }
+    }
+
+    #[inline]
+    pub(crate) fn ln(u: T) -> Self {
+        let first = T::constant(1.0) / u;
+        Self { value: u.ln(), first, second: -first.square() }
+    }
+
+    #[inline]
+    pub(crate) fn sin(u: T) -> Self {
+        let (sin, cos) = (u.sin(), u.cos());
+        Self { value: sin, first: cos, second: -sin }
+    }
+
+    #[inline]
+    pub(crate) fn cos(u: T) -> Self {
+        let (sin, cos) = (u.sin(), u.cos());
+        Self { value: cos, first: -sin, second: -cos }
+    }
+}
+
+/// The others at a point.
+impl Outer<f64> {
     pub(crate) fn powf(u: f64, c: f64) -> Self {
         // a vanishing factor stands for a vanishing derivative, also where the power is infinite
         let times = |factor: f64, exponent: f64| {
             if factor.abs() > 0.0 { factor * u.powf(exponent) } else { 0.0 }
         };
         Self { value: u.powf(c), first: times(c, c - 1.0), second: times(c * (c - 1.0), c - 2.0) }
-    }
-
-    pub(crate) fn sqrt(u: f64) -> Self {
-        let value = u.sqrt();
-        let first = 0.5 / value;
-        Self { value, first, second: -0.5 * first / u }
-    }
-
-    pub(crate) fn exp(u: f64) -> Self {
-        let value = u.exp();
-        Self { value, first: value, second: value }
-    }
-
-    pub(crate) fn ln(u: f64) -> Self {
-        let first = 1.0 / u;
-        Self { value: u.ln(), first, second: -first * first }
-    }
-
-    pub(crate) fn sin(u: f64) -> Self {
-        let (sin, cos) = (u.sin(), u.cos());
-        Self { value: sin, first: cos, second: -sin }
-    }
-
-    pub(crate) fn cos(u: f64) -> Self {
-        let (sin, cos) = (u.sin(), u.cos());
-        Self { value: cos, first: -sin, second: -cos }
     }
 
     pub(crate) fn tan(u: f64) -> Self {
@@ -81,17 +98,17 @@ impl Outer {
     }
 }
 
-/// atan2 at one point: value, the two first derivatives, the three second ones.
+/// atan2 at one point, or over intervals: value, the two first derivatives, the three second ones.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Angle {
-    pub(crate) value: f64,
+pub(crate) struct Angle<T> {
+    pub(crate) value: T,
     /// Derivatives by y and by x.
-    pub(crate) first: [f64; 2],
+    pub(crate) first: [T; 2],
     /// Second derivatives yy and yx; xx is −yy, because the angle is harmonic.
-    pub(crate) second: [f64; 2],
+    pub(crate) second: [T; 2],
 }
 
-impl Angle {
+impl Angle<f64> {
     pub(crate) fn of(y: f64, x: f64) -> Self {
         // divide by the larger size, so that the squares neither overflow nor vanish
         let size = y.abs().max(x.abs());
@@ -175,18 +192,18 @@ macro_rules! mixed_operators {
     };
 }
 
-/// [`Number`] for a jet with `chain` (a function of one variable after the jet) and `chain_angle`.
+/// [`Number`] for a jet of `f64` or of intervals with `chain` (a function of one variable after the
+/// jet) and `chain_angle`; the macro `choices` defines `min` and `max`.
 macro_rules! jet_number {
-    ($jet:ty) => {
-        impl Number for $jet {
+    ($jet:ident<$scalar:ty>, $choices:ident) => {
+        impl Number for $jet<$scalar> {
             #[inline]
             fn constant(c: f64) -> Self {
-                Self { value: c, ..Self::ZERO }
+                Self::constant_of(<$scalar>::constant(c))
             }
             #[inline]
             fn square(self) -> Self {
-                let u = self.value;
-                self.chain(Outer { value: u * u, first: 2.0 * u, second: 2.0 })
+                self.chain(Outer::square(self.value))
             }
             #[inline]
             fn powi(self, n: i32) -> Self {
@@ -194,7 +211,7 @@ macro_rules! jet_number {
             }
             #[inline]
             fn powf(self, c: f64) -> Self {
-                self.chain(Outer::powf(self.value, c))
+                self.chain(Outer::<$scalar>::powf(self.value, c))
             }
             #[inline]
             fn sqrt(self) -> Self {
@@ -218,32 +235,39 @@ macro_rules! jet_number {
             }
             #[inline]
             fn tan(self) -> Self {
-                self.chain(Outer::tan(self.value))
+                self.chain(Outer::<$scalar>::tan(self.value))
             }
             #[inline]
             fn tanh(self) -> Self {
-                self.chain(Outer::tanh(self.value))
+                self.chain(Outer::<$scalar>::tanh(self.value))
             }
             #[inline]
             fn atan2(self, x: Self) -> Self {
-                self.chain_angle(x, Angle::of(self.value, x.value))
+                self.chain_angle(x, Angle::<$scalar>::of(self.value, x.value))
             }
             #[inline]
             fn abs(self) -> Self {
-                self.chain(Outer::abs(self.value))
+                self.chain(Outer::<$scalar>::abs(self.value))
             }
-            #[inline]
-            fn min(self, other: Self) -> Self {
-                let in_order = self.value <= other.value;
-                if takes_first(self.value, other.value, in_order) { self } else { other }
-            }
-            #[inline]
-            fn max(self, other: Self) -> Self {
-                let in_order = self.value >= other.value;
-                if takes_first(self.value, other.value, in_order) { self } else { other }
-            }
+            $choices!();
         }
     };
 }
 
-pub(crate) use {jet_number, mixed_operators};
+/// `min` and `max` of jets at a point.
+macro_rules! choices_at_a_point {
+    () => {
+        #[inline]
+        fn min(self, other: Self) -> Self {
+            let in_order = self.value <= other.value;
+            if takes_first(self.value, other.value, in_order) { self } else { other }
+        }
+        #[inline]
+        fn max(self, other: Self) -> Self {
+            let in_order = self.value >= other.value;
+            if takes_first(self.value, other.value, in_order) { self } else { other }
+        }
+    };
+}
+
+pub(crate) use {choices_at_a_point, jet_number, mixed_operators};

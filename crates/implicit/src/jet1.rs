@@ -3,13 +3,13 @@
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::jet::{Angle, Outer, jet_number, mixed_operators};
+use crate::interval::{Interval, choices_over_a_box};
+use crate::jet::{Angle, Outer, choices_at_a_point, jet_number, mixed_operators};
 use crate::number::{Number, takes_first};
 
 /// A value with its gradient: what a formula returns in forward mode, first order.
 ///
-/// `Jet1` is that of a point; `Jet1<`[`Interval`](crate::Interval)`>` encloses value and gradient
-/// over a box.
+/// `Jet1` is that of a point; `Jet1<`[`Interval`]`>` encloses value and gradient over a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jet1<T = f64> {
     /// The value u.
@@ -31,36 +31,25 @@ impl<T: Number> Jet1<T> {
     }
 
     #[inline]
-    pub(crate) fn map(self, f: impl Fn(T) -> T) -> Self {
+    pub(crate) fn constant_of(value: T) -> Self {
+        Self { value, gradient: [T::constant(0.0); 3] }
+    }
+
+    #[inline]
+    fn map(self, f: impl Fn(T) -> T) -> Self {
         Self { value: f(self.value), gradient: self.gradient.map(f) }
     }
 
-    /// The product of the chain rule: `first` is the derivative of a function whose value is
-    /// `value`.
     #[inline]
-    pub(crate) fn composed(self, value: T, first: T) -> Self {
-        Self { value, gradient: self.gradient.map(|d| first * d) }
-    }
-
-    /// The same for a function of two variables, `self` and `x`.
-    #[inline]
-    pub(crate) fn composed_with(self, x: Self, value: T, [by_self, by_x]: [T; 2]) -> Self {
-        let gradient = from_fn(|i| by_self * self.gradient[i] + by_x * x.gradient[i]);
-        Self { value, gradient }
-    }
-}
-
-impl Jet1 {
-    pub(crate) const ZERO: Self = Self { value: 0.0, gradient: [0.0; 3] };
-
-    #[inline]
-    fn chain(self, outer: Outer) -> Self {
-        self.composed(outer.value, outer.first)
+    pub(crate) fn chain(self, outer: Outer<T>) -> Self {
+        Self { value: outer.value, gradient: self.gradient.map(|d| outer.first * d) }
     }
 
     #[inline]
-    fn chain_angle(self, x: Self, angle: Angle) -> Self {
-        self.composed_with(x, angle.value, angle.first)
+    pub(crate) fn chain_angle(self, x: Self, angle: Angle<T>) -> Self {
+        let [by_y, by_x] = angle.first;
+        let gradient = from_fn(|i| by_y * self.gradient[i] + by_x * x.gradient[i]);
+        Self { value: angle.value, gradient }
     }
 }
 
@@ -108,5 +97,7 @@ impl<T: Number> Div for Jet1<T> {
     }
 }
 
-mixed_operators!(Jet1);
-jet_number!(Jet1);
+mixed_operators!(Jet1<f64>);
+mixed_operators!(Jet1<Interval>);
+jet_number!(Jet1<f64>, choices_at_a_point);
+jet_number!(Jet1<Interval>, choices_over_a_box);

@@ -6,7 +6,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use glam::{DMat3, DVec3};
 
 use crate::field::FieldJet;
-use crate::jet::{Angle, Outer, jet_number, mixed_operators};
+use crate::interval::{Interval, choices_over_a_box};
+use crate::jet::{Angle, Outer, choices_at_a_point, jet_number, mixed_operators};
 use crate::number::{Number, takes_first};
 
 /// A value with gradient and Hessian, ten numbers: what a formula returns in forward mode, second
@@ -20,40 +21,46 @@ use crate::number::{Number, takes_first};
 /// assert_eq!(f.gradient, [4.0, 1.0, 2.0]);
 /// assert_eq!(f.hessian, [4.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
 /// ```
+///
+/// `Jet2` is that of a point; `Jet2<`[`Interval`]`>` encloses all three over a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jet2 {
+pub struct Jet2<T = f64> {
     /// The value u.
-    pub value: f64,
+    pub value: T,
     /// The derivatives by x, y, z.
-    pub gradient: [f64; 3],
+    pub gradient: [T; 3],
     /// The second derivatives xx, yy, zz, xy, yz, zx.
-    pub hessian: [f64; 6],
+    pub hessian: [T; 6],
 }
 
 /// The axes of the six second derivatives, in the order of [`Jet2::hessian`].
-const AXES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+pub(crate) const AXES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
 
-impl Jet2 {
-    pub(crate) const ZERO: Self = Self { value: 0.0, gradient: [0.0; 3], hessian: [0.0; 6] };
-
-    /// The coordinates of a point as the three independent variables.
+impl<T: Number> Jet2<T> {
+    /// The coordinates of a point, or of a box, as the three independent variables.
     #[inline]
     #[must_use]
-    pub fn variables(p: [f64; 3]) -> [Self; 3] {
+    pub fn variables(p: [T; 3]) -> [Self; 3] {
         from_fn(|axis| {
-            let mut gradient = [0.0; 3];
-            gradient[axis] = 1.0;
-            Self { value: p[axis], gradient, hessian: [0.0; 6] }
+            let mut variable = Self::constant_of(p[axis]);
+            variable.gradient[axis] = T::constant(1.0);
+            variable
         })
     }
 
     #[inline]
-    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn constant_of(value: T) -> Self {
+        let zero = T::constant(0.0);
+        Self { value, gradient: [zero; 3], hessian: [zero; 6] }
+    }
+
+    #[inline]
+    fn map(self, f: impl Fn(T) -> T) -> Self {
         Self { value: f(self.value), gradient: self.gradient.map(&f), hessian: self.hessian.map(f) }
     }
 
     #[inline]
-    fn chain(self, outer: Outer) -> Self {
+    fn chain(self, outer: Outer<T>) -> Self {
         let g = self.gradient;
         let bent = g.map(|d| outer.second * d);
         Self {
@@ -67,7 +74,7 @@ impl Jet2 {
     }
 
     #[inline]
-    fn chain_angle(self, x: Self, angle: Angle) -> Self {
+    fn chain_angle(self, x: Self, angle: Angle<T>) -> Self {
         let [by_y, by_x] = angle.first;
         let [by_yy, by_yx] = angle.second;
         let (u, v) = (self.gradient, x.gradient);
@@ -97,7 +104,7 @@ impl From<Jet2> for FieldJet {
     }
 }
 
-impl Add for Jet2 {
+impl<T: Number> Add for Jet2<T> {
     type Output = Self;
     #[inline]
     fn add(self, v: Self) -> Self {
@@ -109,7 +116,7 @@ impl Add for Jet2 {
     }
 }
 
-impl Sub for Jet2 {
+impl<T: Number> Sub for Jet2<T> {
     type Output = Self;
     #[inline]
     fn sub(self, v: Self) -> Self {
@@ -122,7 +129,7 @@ impl Sub for Jet2 {
 }
 
 #[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds")]
-impl Mul for Jet2 {
+impl<T: Number> Mul for Jet2<T> {
     type Output = Self;
     #[inline]
     fn mul(self, v: Self) -> Self {
@@ -139,15 +146,15 @@ impl Mul for Jet2 {
     }
 }
 
-impl Div for Jet2 {
+impl<T: Number> Div for Jet2<T> {
     type Output = Self;
     #[inline]
     fn div(self, v: Self) -> Self {
         // u = q v differentiated twice and solved for the derivatives of q
         let value = self.value / v.value;
-        let inverse = 1.0 / v.value;
+        let inverse = T::constant(1.0) / v.value;
         let h = v.gradient;
-        let g: [f64; 3] = from_fn(|i| (self.gradient[i] - value * h[i]) * inverse);
+        let g: [T; 3] = from_fn(|i| (self.gradient[i] - value * h[i]) * inverse);
         Self {
             value,
             gradient: g,
@@ -160,5 +167,7 @@ impl Div for Jet2 {
     }
 }
 
-mixed_operators!(Jet2);
-jet_number!(Jet2);
+mixed_operators!(Jet2<f64>);
+mixed_operators!(Jet2<Interval>);
+jet_number!(Jet2<f64>, choices_at_a_point);
+jet_number!(Jet2<Interval>, choices_over_a_box);

@@ -63,4 +63,8 @@ impl<F: BoundedField> BoundedField for Level<F> {
     fn gradient_enclosure(&self, region: &Aabb) -> [Interval; 3] {
         self.field.gradient_enclosure(region)
     }
+
+    fn hessian_enclosure(&self, region: &Aabb) -> [Interval; 6] {
+        self.field.hessian_enclosure(region)
+    }
 }

@@ -4,7 +4,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number for formulas: `f64` gives the value, [`Jet1`](crate::Jet1) adds the gradient,
 /// [`Jet2`](crate::Jet2) the Hessian, [`Interval`](crate::Interval) encloses the value over a box, and
-/// `Jet1<Interval>` the gradient as well.
+/// `Jet1<Interval>` and `Jet2<Interval>` the derivatives as well.
 ///
 /// Derivatives where there are two to choose from are one-sided and never NaN: at a tie
 /// [`min`](Self::min) and [`max`](Self::max) take those of `self`, and [`abs`](Self::abs) at zero

@@ -1,38 +1,18 @@
 //! Enclosures of the gradient: outward, tight on small boxes, honest at kinks and jumps.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::missing_assert_message,
-    reason = "helpers of tests fail like tests"
-)]
+#![allow(clippy::missing_assert_message, reason = "helpers of tests fail like tests")]
 
+mod boxes;
 mod common;
 
+use boxes::{cube, formula, samples};
 use common::{FORMULAS, any_box, formula_region};
 use implicit::glam::DVec3;
 use implicit::{
-    Aabb, BoundedField, Closure, Formula, ImplicitSurface, Interval, Level, Sphere, Torus,
-    catalogue,
+    Aabb, BoundedField, Closure, ImplicitSurface, Interval, Level, Sphere, Torus, catalogue,
 };
 use proptest::prelude::*;
 use testkit::conformance::field::sample_points;
-
-fn formula(text: &str) -> Formula {
-    Formula::parse(text).unwrap()
-}
-
-/// A cube; without extent for `size` 0.
-fn cube(center: DVec3, size: f64) -> Aabb {
-    let half = DVec3::splat(0.5 * size);
-    Aabb { min: center - half, max: center + half }
-}
-
-/// The corners and `count` points inside.
-fn samples(region: &Aabb, count: u32) -> impl Iterator<Item = DVec3> {
-    let inside = sample_points(region, count).into_iter();
-    // the sample may round out of a box that is hardly larger than its distance from zero
-    inside.map(|p| p.clamp(region.min, region.max)).chain(region.corners())
-}
 
 /// The gradients at sampled points are inside, to the last bit.
 #[track_caller]

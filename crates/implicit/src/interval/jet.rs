@@ -1,16 +1,18 @@
-//! Value and gradient enclosed over a box.
+//! Value and derivatives enclosed over a box.
 //!
-//! The operations are those of [`Jet1`] at a point in the same order, each rounded outward, so that
-//! the gradient computed in `f64` stays inside. Where a function jumps, its derivative is
-//! [`Interval::ENTIRE`] and stays so through every function around it: no derivative of an outer
-//! function is the number zero where its argument is unbounded.
+//! The operations are those of the jets at a point in the same order, each rounded outward, so that
+//! the derivatives computed in `f64` stay inside. Where a function jumps, its derivatives are
+//! [`Interval::ENTIRE`] and stay so through every function around it: no first derivative of an
+//! outer function is the number zero where its argument is unbounded. Where only the gradient jumps,
+//! at a kink, the same holds for the second derivatives.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::array::from_fn;
 
 use super::elementary::LIBRARY_ULPS;
 use super::{Interval, is_zero};
-use crate::jet::mixed_operators;
+use crate::jet::{Angle, Outer};
 use crate::jet1::Jet1;
+use crate::jet2::{AXES, Jet2};
 use crate::number::Number;
 
 /// By how many units the derivatives of [`tanh`](Number::tanh) and [`atan2`](Number::atan2) are
@@ -26,134 +28,120 @@ impl Interval {
         Self { hi: range.hi.min(1.0), ..range }
     }
 
-    /// The derivative of u^c.
-    fn powf_slope(self, c: f64) -> Self {
-        if is_zero(c) {
-            return Self::constant(0.0);
-        }
-        let exponent = c - 1.0;
-        let power = self.powf(exponent);
-        // the exponent may be rounded: then the true one lies between its neighbours
-        let rounded = (exponent + 1.0).to_bits() != c.to_bits();
-        let power = if rounded {
-            let neighbours = [exponent.next_down(), exponent.next_up()].map(|e| self.powf(e));
-            power.hull(neighbours[0]).hull(neighbours[1])
-        } else {
-            power
+    /// u^(c − `steps`).
+    fn powf_less(self, c: f64, steps: f64) -> Self {
+        let exponent = Self::constant(c) - steps;
+        let power = self.powf(exponent.lo);
+        // a rounded exponent lies between its neighbours
+        if exponent.lo < exponent.hi { power.hull(self.powf(exponent.hi)) } else { power }
+    }
+}
+
+/// The functions whose derivatives need more than the terms at a point.
+impl Outer<Interval> {
+    pub(crate) fn powf(u: Interval, c: f64) -> Self {
+        // a vanishing factor stands for a vanishing derivative, also where the power is unbounded
+        let times = |factor: Interval, steps: f64| {
+            let vanishes = is_zero(factor.lo) && is_zero(factor.hi);
+            if vanishes { factor } else { u.powf_less(c, steps) * factor }
         };
-        power * c
+        let degree = Interval::constant(c);
+        Self {
+            value: u.powf(c),
+            first: times(degree, 1.0),
+            second: times(degree * (degree - 1.0), 2.0),
+        }
+    }
+
+    pub(crate) fn tan(u: Interval) -> Self {
+        let value = u.tan();
+        // 1 + tan² would call the slope across a pole positive
+        let first = if value == Interval::ENTIRE { value } else { value.square() + 1.0 };
+        Self { value, first, second: value * 2.0 * first }
+    }
+
+    pub(crate) fn tanh(u: Interval) -> Self {
+        let (value, first) = (u.tanh(), u.sech_squared());
+        Self { value, first, second: value * -2.0 * first }
+    }
+
+    pub(crate) fn abs(u: Interval) -> Self {
+        let [zero, one] = [0.0, 1.0].map(Interval::constant);
+        let (first, second) = if u.lo >= 0.0 {
+            (one, zero)
+        } else if u.hi < 0.0 {
+            (-one, zero)
+        } else {
+            (one.hull(-one), Interval::ENTIRE)
+        };
+        Self { value: u.abs(), first, second }
+    }
+}
+
+impl Angle<Interval> {
+    pub(crate) fn of(y: Interval, x: Interval) -> Self {
+        let value = y.atan2(x);
+        // a jump of a whole turn
+        if y.contains_zero() && x.lo <= 0.0 {
+            return Self { value, first: [Interval::ENTIRE; 2], second: [Interval::ENTIRE; 2] };
+        }
+        let size_squared = y.square() + x.square();
+        let [sin, cos] = [y, x].map(|u| (u / size_squared).widened(DETOUR_ULPS));
+        // the difference may cancel, which magnifies the errors of the squares: they are covered by
+        // the widening of sin and cos
+        let second = [sin * cos * -2.0, sin.square() - cos.square()];
+        Self { value, first: [cos, -sin], second: second.map(|u| u.widened(DETOUR_ULPS)) }
     }
 }
 
 impl Jet1<Interval> {
-    /// Both gradients are possible.
-    fn either(self, other: Self, value: Interval) -> Self {
-        let gradient = std::array::from_fn(|i| self.gradient[i].hull(other.gradient[i]));
-        Self { value, gradient }
+    /// Both jets are possible.
+    pub(crate) fn either(self, other: Self, value: Interval) -> Self {
+        Self { value, gradient: from_fn(|i| self.gradient[i].hull(other.gradient[i])) }
     }
 }
 
-mixed_operators!(Jet1<Interval>);
-
-impl Number for Jet1<Interval> {
-    fn constant(c: f64) -> Self {
-        Self { value: Interval::constant(c), gradient: [Interval::constant(0.0); 3] }
-    }
-
-    fn square(self) -> Self {
-        let u = self.value;
-        self.composed(u.square(), u * 2.0)
-    }
-
-    fn powi(self, n: i32) -> Self {
-        let u = self.value;
-        match n {
-            0 => Self::constant(1.0),
-            1 => self,
-            _ => self.composed(u.powi(n), u.powi(n.saturating_sub(1)) * f64::from(n)),
-        }
-    }
-
-    fn powf(self, c: f64) -> Self {
-        self.composed(self.value.powf(c), self.value.powf_slope(c))
-    }
-
-    fn sqrt(self) -> Self {
-        let value = self.value.sqrt();
-        self.composed(value, Interval::constant(0.5) / value)
-    }
-
-    fn exp(self) -> Self {
-        let value = self.value.exp();
-        self.composed(value, value)
-    }
-
-    fn ln(self) -> Self {
-        self.composed(self.value.ln(), Interval::constant(1.0) / self.value)
-    }
-
-    fn sin(self) -> Self {
-        self.composed(self.value.sin(), self.value.cos())
-    }
-
-    fn cos(self) -> Self {
-        self.composed(self.value.cos(), -self.value.sin())
-    }
-
-    fn tan(self) -> Self {
-        let value = self.value.tan();
-        // 1 + tan² would call the slope across a pole positive
-        let slope = if value == Interval::ENTIRE { value } else { value.square() + 1.0 };
-        self.composed(value, slope)
-    }
-
-    fn tanh(self) -> Self {
-        self.composed(self.value.tanh(), self.value.sech_squared())
-    }
-
-    fn atan2(self, x: Self) -> Self {
-        let (sin, cos) = (self.value, x.value);
-        let value = sin.atan2(cos);
-        // a jump of a whole turn
-        let on_cut = sin.contains_zero() && cos.lo <= 0.0;
-        let size_squared = sin.square() + cos.square();
-        let slope = |u: Interval| {
-            if on_cut { Interval::ENTIRE } else { (u / size_squared).widened(DETOUR_ULPS) }
-        };
-        self.composed_with(x, value, [slope(cos), slope(-sin)])
-    }
-
-    fn abs(self) -> Self {
-        let u = self.value;
-        let sign = if u.lo >= 0.0 {
-            Interval::constant(1.0)
-        } else if u.hi < 0.0 {
-            Interval::constant(-1.0)
-        } else {
-            Interval::new(-1.0, 1.0)
-        };
-        self.composed(u.abs(), sign)
-    }
-
-    fn min(self, other: Self) -> Self {
-        let (u, v) = (self.value, other.value);
-        if u.hi <= v.lo {
-            self
-        } else if v.hi < u.lo {
-            other
-        } else {
-            self.either(other, u.min(v))
-        }
-    }
-
-    fn max(self, other: Self) -> Self {
-        let (u, v) = (self.value, other.value);
-        if u.lo >= v.hi {
-            self
-        } else if v.lo > u.hi {
-            other
-        } else {
-            self.either(other, u.max(v))
+impl Jet2<Interval> {
+    /// Both jets are possible, and between them the gradient may jump.
+    pub(crate) fn either(self, other: Self, value: Interval) -> Self {
+        let jump: [Interval; 3] = from_fn(|i| self.gradient[i] - other.gradient[i]);
+        Self {
+            value,
+            gradient: from_fn(|i| self.gradient[i].hull(other.gradient[i])),
+            hessian: from_fn(|k| {
+                let (i, j) = AXES[k];
+                // zero along the kink, where nothing jumps
+                let bend = Interval::ENTIRE * jump[i] * jump[j];
+                self.hessian[k].hull(other.hessian[k]) + bend
+            }),
         }
     }
 }
+
+/// `min` and `max` of jets over a box.
+macro_rules! choices_over_a_box {
+    () => {
+        fn min(self, other: Self) -> Self {
+            let (u, v) = (self.value, other.value);
+            if u.hi <= v.lo {
+                self
+            } else if v.hi < u.lo {
+                other
+            } else {
+                self.either(other, u.min(v))
+            }
+        }
+        fn max(self, other: Self) -> Self {
+            let (u, v) = (self.value, other.value);
+            if u.lo >= v.hi {
+                self
+            } else if v.lo > u.hi {
+                other
+            } else {
+                self.either(other, u.max(v))
+            }
+        }
+    };
+}
+
+pub(crate) use choices_over_a_box;
