@@ -71,8 +71,7 @@ pub(crate) struct FitArguments {
     normal_tolerance: Option<f64>,
 
     /// Also prove an upper bound of the distance from the patches to the surface by interval
-    /// arithmetic; takes a few milliseconds a patch and is far above the measured deviation of
-    /// accurate results
+    /// arithmetic, some times the measured deviation or more; takes up to ten milliseconds a patch
     #[arg(long)]
     certify: bool,
 
