@@ -5,8 +5,8 @@ mod equalise;
 mod wishes;
 
 use basemesh::{
-    FaceMap, FieldTarget, RemeshSettings, Simplified, SimplifyError, SimplifySettings, TriMesh,
-    polygonize_to_faces, remesh, simplify,
+    FaceMap, FieldTarget, ImproveSettings, RemeshSettings, Simplified, SimplifyError,
+    SimplifySettings, TriMesh, polygonize_to_faces, remesh, simplify,
 };
 use implicit::{Aabb, ImplicitSurface};
 use serde::{Deserialize, Serialize};
@@ -155,7 +155,7 @@ pub fn fit_to_tolerance(
             Some(wishes) => {
                 clock
                     .run(Stage::Simplify, faces, || {
-                        remesh(&surface.mesh, &source, wishes, &RemeshSettings::default())
+                        remesh(&surface.mesh, &source, wishes, &few_faces())
                     })?
                     .mesh
             }
@@ -172,6 +172,12 @@ pub fn fit_to_tolerance(
     };
     surface.times = clock.times;
     Ok(surface)
+}
+
+/// Wider limits than for a mesh of a given size: thin faces are tolerated where that saves some.
+fn few_faces() -> RemeshSettings {
+    let limits = ImproveSettings { min_quality: 0.25, lean_cos: 0.1, ..ImproveSettings::default() };
+    RemeshSettings { limits, ..RemeshSettings::default() }
 }
 
 /// The mesh that is fitted first, with few faces, but enough for its topology.
