@@ -25,7 +25,8 @@ pub(crate) enum Command {
 pub(crate) const EXIT_CODES: &str = "\
 Exit codes:
   0  success
-  1  `check` only: a bound is exceeded, or the patches do not form a manifold
+  1  `fit`: the tolerance is not met; all files are written
+     `check`: a bound is exceeded, or the patches do not form a manifold
   2  the task cannot be done: one message on stderr says why, and no partial file is left";
 
 const OVERVIEW: &str = "\
@@ -36,5 +37,6 @@ Examples:
 
 Exit codes:
   0  success
-  1  `check` only: a bound is exceeded, or the patches do not form a manifold
+  1  `fit`: the tolerance is not met; all files are written
+     `check`: a bound is exceeded, or the patches do not form a manifold
   2  the task cannot be done: one message on stderr says why, and no partial file is left";

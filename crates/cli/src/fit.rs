@@ -55,9 +55,10 @@ pub(crate) struct FitArguments {
     faces: Option<usize>,
 
     /// The accuracy instead of a number of patches: the largest distance to the surface, in
-    /// diagonals of its bounding box; as few patches as that takes
+    /// diagonals of its bounding box; as few patches as that takes. The number of faces of a scene
+    /// is not used then
     #[arg(long, value_name = "DISTANCE", conflicts_with_all = ["faces", "base_mesh"])]
-    #[arg(value_parser = values::positive, allow_negative_numbers = true)]
+    #[arg(value_parser = values::positive, allow_hyphen_values = true)]
     tolerance: Option<f64>,
 
     /// The distance of --tolerance is a length
@@ -65,9 +66,9 @@ pub(crate) struct FitArguments {
     absolute: bool,
 
     /// The largest angle between the normals of patches and surface, in degrees; without
-    /// --tolerance, that is 1e-4 of the diagonal
+    /// --tolerance, that is 1e-4 of the diagonal. With either of them it is never more than 10
     #[arg(long, value_name = "DEG", conflicts_with_all = ["faces", "base_mesh"])]
-    #[arg(value_parser = values::positive, allow_negative_numbers = true)]
+    #[arg(value_parser = values::angle, allow_hyphen_values = true)]
     normal_tolerance: Option<f64>,
 
     /// Also prove an upper bound of the distance from the patches to the surface by interval
@@ -154,9 +155,10 @@ impl From<CellName> for CellKind {
 pub(crate) fn run(arguments: &FitArguments) -> anyhow::Result<Outcome> {
     let outputs = Outputs::new(arguments)?;
     outputs.check_places()?;
+    // before the search for a region, which works with all threads there are
+    arguments.threads.apply()?;
     let task = Task::new(arguments)?;
     outputs.check_distinct(task.files_read())?;
-    arguments.threads.apply()?;
 
     let mut progress = progress::listener(arguments.quiet);
     let surface = task.fit(&mut *progress)?;
@@ -177,7 +179,7 @@ pub(crate) fn run(arguments: &FitArguments) -> anyhow::Result<Outcome> {
     if !arguments.quiet {
         let seconds = start.elapsed().as_secs_f64();
         print(&summary::summary(&task, &report, certificate.as_ref(), &written, seconds))?;
-        for warning in warnings::warnings(&report) {
+        for warning in warnings::warnings(&report, &surface, &faces) {
             complain(&format!("warning: {warning}"));
         }
     }

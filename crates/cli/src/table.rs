@@ -45,6 +45,11 @@ pub(crate) fn of_diagonal(part: f64) -> String {
     format!("{part:.2e} of the diagonal")
 }
 
+/// The grid on which the worst patches were compared with the surface.
+pub(crate) fn grid(divisions: usize) -> String {
+    format!("{divisions} divisions")
+}
+
 pub(crate) fn yes_no(value: bool) -> &'static str {
     if value { "yes" } else { "no" }
 }

@@ -14,13 +14,11 @@ impl ThreadArguments {
     /// Limits the threads of everything that follows.
     #[cfg(feature = "rayon")]
     pub(crate) fn apply(self) -> anyhow::Result<()> {
-        use anyhow::Context as _;
-
         let Some(count) = self.threads else { return Ok(()) };
         rayon::ThreadPoolBuilder::new()
             .num_threads(count.into())
             .build_global()
-            .with_context(|| format!("cannot start {count} threads"))
+            .map_err(|error| anyhow::anyhow!("cannot start {count} threads: {error}"))
     }
 
     /// This program was built without threads.

@@ -30,6 +30,21 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     })
 }
 
+/// Smallest angle between normals that can be asked for, in degrees: a hundred times what rounding
+/// turns the normals of small patches by.
+const SMALLEST_ANGLE: f64 = 1e-9;
+
+/// A tolerance of normals in degrees.
+pub(crate) fn angle(text: &str) -> Result<f64, String> {
+    positive(text).and_then(|degrees| {
+        if degrees >= SMALLEST_ANGLE {
+            Ok(degrees)
+        } else {
+            Err(format!("normals can be measured to {SMALLEST_ANGLE:e}°, not to less"))
+        }
+    })
+}
+
 pub(crate) fn faces(text: &str) -> Result<usize, String> {
     let count: usize = text.parse().map_err(|_| format!("`{text}` is not a number of faces"))?;
     match count {

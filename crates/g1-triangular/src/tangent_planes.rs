@@ -142,7 +142,10 @@ impl<'a> Fit<'a> {
         equations.solve()
     }
 
-    /// `(row(t) - q_b(t))·n(t) = 0` at the samples.
+    /// `(row(t) - (q_b(t) + q_t(t)) / 2)·n(t) = 0` at the samples.
+    ///
+    /// `q_b` and `q_t` differ by the derivative of the curve, which is tangential as far as the curve
+    /// is on the surface; their mean does not depend on the direction of the edge.
     fn normal_residuals(&self, side: usize, row: &[DVec3; 7], equations: &mut Equations) {
         let origin = self.system.curve.points[0];
         let q = self.system.curve.points.map(|q| (q - origin) / self.length);
@@ -151,7 +154,8 @@ impl<'a> Fit<'a> {
             let sextic = bernstein::<7>(parameter(j));
             let cubic = bernstein::<4>(parameter(j));
             let on_row: DVec3 = row.iter().zip(sextic).map(|(p, b)| *p * b).sum();
-            let on_curve: DVec3 = q.iter().zip(cubic).map(|(q, b)| *q * b).sum();
+            let on_curve: DVec3 =
+                q.windows(2).zip(cubic).map(|(q, b)| (q[0] + q[1]) * (0.5 * b)).sum();
             equations.push(
                 std::array::from_fn(|c| {
                     let motion = |i: usize| self.direction(SIDES[side][i], c) * sextic[2 + i];

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::FitError;
 use crate::measure::{FaceDeviation, settle};
 use crate::memory::Memory;
-use crate::pipeline::{fit_again, fit_mesh};
+use crate::pipeline::{fit_again, fit_mesh, needs_repair};
 use crate::progress::{Clock, Progress, Stage};
 use crate::settings::Settings;
 use crate::source::FieldSource;
@@ -44,6 +44,17 @@ pub enum Distance {
 const SMALLEST: f64 = 1e-11;
 
 impl Tolerance {
+    /// Largest normal angle in degrees, whatever is asked for: patches that lean more are nearly
+    /// folded.
+    pub const LARGEST_NORMAL_DEG: f64 = 10.0;
+
+    /// The normal angle in degrees that must hold.
+    #[must_use]
+    pub fn normal_limit_deg(&self) -> f64 {
+        self.normal_deg
+            .map_or(Self::LARGEST_NORMAL_DEG, |asked| asked.min(Self::LARGEST_NORMAL_DEG))
+    }
+
     /// Whether both numbers are positive and can be measured.
     fn check(&self) -> Result<(), FitError> {
         let (value, smallest) = match self.distance {
@@ -76,10 +87,10 @@ const SHAPING_ROUNDS: usize = 6;
 const REFINING_ROUNDS: usize = 20;
 /// Shaping ends when a round changes the number of faces by less than this part.
 const SHAPED: f64 = 0.03;
+/// Most faces of a base mesh that is fitted.
+const MOST_FACES: usize = 100_000;
 /// Part of the tolerance that must not be exceeded, so that a denser measurement agrees.
 const SAFETY: f64 = 0.95;
-/// Largest normal angle in degrees, whatever is asked for: patches that lean more are nearly folded.
-const NORMAL_DEG: f64 = 10.0;
 /// Triangles of the polygonization: as few as show the topology.
 const COARSE: usize = 4000;
 /// Faces of the first base mesh for each triangle of the polygonization, inverse.
@@ -93,7 +104,8 @@ const FIRST_REDUCTION: usize = 8;
 /// angles with the fifth), then only where the tolerance is exceeded or where edges are not
 /// resolved. The number of faces in `settings` is not used.
 ///
-/// A tolerance that cannot be met is not an error: [`Adaptation::met`] tells.
+/// A tolerance that cannot be met is not an error: [`Adaptation::met`] tells. At a sharp edge the mesh
+/// would grow without end; it ends before the base mesh has more than 100 000 faces.
 ///
 /// # Errors
 ///
@@ -142,28 +154,22 @@ pub fn fit_to_tolerance(
             refining += 1;
             urgent_wishes(&surface, &excess, refining)
         };
-        if shaping == 0 && (wishes.is_none() || refining == REFINING_ROUNDS) {
-            let met = wishes.is_none();
-            let surface = if met {
-                surface
-            } else {
-                fit_mesh(surface.mesh, &source, settings, 0, &mut clock)?
-            };
-            break (surface, met);
+        let Some(wishes) = wishes else { break (surface, true) };
+        if refining == REFINING_ROUNDS {
+            break (surface, false);
         }
-        mesh = match &wishes {
-            Some(wishes) => {
-                clock
-                    .run(Stage::Simplify, faces, || {
-                        remesh(&surface.mesh, &source, wishes, &few_faces())
-                    })?
-                    .mesh
-            }
-            None => surface.mesh,
-        };
+        mesh = clock
+            .run(Stage::Simplify, faces, || remesh(&surface.mesh, &source, &wishes, &few_faces()))?
+            .mesh;
+        if mesh.topology().face_count() > MOST_FACES {
+            break (surface, false);
+        }
         let change = mesh.topology().face_count() as f64 / faces as f64;
         shaping = if (change - 1.0).abs() < SHAPED { 0 } else { shaping.saturating_sub(1) };
     };
+    if needs_repair(&surface, &source) {
+        surface = fit_mesh(surface.mesh, &source, settings, 0, &mut clock)?;
+    }
     surface.origin = BaseMeshOrigin {
         polygonized: Some(polygonized),
         simplified: Some(first.report),
@@ -213,8 +219,8 @@ fn excess(
             return f64::INFINITY;
         }
         let by_distance = face.max / (SAFETY * distance);
-        let limit = tolerance.normal_deg.unwrap_or(NORMAL_DEG).min(NORMAL_DEG);
-        let by_normal = (face.max_normal.to_degrees() / (SAFETY * limit)).powf(6.0 / 5.0);
+        let by_normal = (face.max_normal.to_degrees() / (SAFETY * tolerance.normal_limit_deg()))
+            .powf(6.0 / 5.0);
         by_distance.max(by_normal)
     })
 }

@@ -23,7 +23,7 @@ pub enum FitError {
     #[error(transparent)]
     Refine(#[from] SplitError),
     /// Too small a distance is asked for, or no distance at all.
-    #[error("the tolerance {value} is not a number of at least {smallest:e}")]
+    #[error("the tolerance {value:e} is not a number of at least {smallest:e}")]
     DistanceTolerance {
         /// What was asked for.
         value: f64,

@@ -102,7 +102,7 @@ pub fn fit_source(
 }
 
 /// Whether the base mesh does not resolve the surface somewhere, or patches fold over.
-fn needs_repair(surface: &G1Surface, source: &dyn FitSource) -> bool {
+pub(crate) fn needs_repair(surface: &G1Surface, source: &dyn FitSource) -> bool {
     let G1Surface { mesh, jets, curves, patches, .. } = surface;
     !edges_to_split(mesh, jets, curves).is_empty()
         || !find_folds(mesh, jets, &patches.nets, source).is_empty()

@@ -74,7 +74,7 @@ fn print_checksums() {
     println!("checksums {published:016x} {refined:016x}");
 }
 
-/// Builds the tests a second time without the feature `rayon` and compares: about two minutes, so
+/// Builds the tests a second time without the feature `rayon` and compares: a few minutes, so
 /// only on request (`cargo test -p smoothpatch --test determinism -- --ignored`).
 #[cfg(feature = "rayon")]
 #[test]

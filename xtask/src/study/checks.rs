@@ -22,8 +22,13 @@ impl Check {
     }
 
     fn at_most(what: String, value: f64, bound: f64) -> Self {
-        Self { what, value, bound: format!("≤ {bound:e}"), holds: value <= bound }
+        Self { what, value, bound: format!("≤ {}", short(bound)), holds: value <= bound }
     }
+}
+
+/// Plain for numbers around one, with an exponent for small ones.
+fn short(bound: f64) -> String {
+    if bound == 0.0 || bound > 0.01 { bound.to_string() } else { format!("{bound:e}") }
 }
 
 const POSITION: fn(&Errors) -> Option<f64> = |errors| Some(errors.max);

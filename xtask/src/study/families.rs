@@ -1,7 +1,7 @@
 //! Sequences of base meshes whose edges are halved from level to level.
 //!
-//! The vertices of every level are moved at random ([`JITTER`]), each level anew, so that no
-//! symmetry of a regular mesh raises the orders; only the sphere stays regular.
+//! The vertices of every level are moved at random, each level anew, so that no symmetry of a regular
+//! mesh raises the orders; only the sphere stays regular.
 
 use anyhow::{Context, Result};
 use smoothpatch::Settings;
@@ -12,7 +12,7 @@ use smoothpatch::basemesh::{
 use smoothpatch::implicit::{Formula, ImplicitSurface, NamedShape};
 use testkit::meshes::{icosphere, jittered, on_surface, radially_on_surface, refined, torus_grid};
 
-/// How far vertices are moved along each axis, in lengths of their shortest edge.
+/// How far vertices are moved, in lengths of their shortest edge.
 const JITTER: f64 = 0.15;
 const SEED: u64 = 2009;
 
@@ -24,9 +24,6 @@ pub(super) struct Family {
     pub(super) meshes: Vec<TriMesh>,
 }
 
-fn seed() -> u64 {
-    std::env::var("JS").ok().and_then(|x| x.parse().ok()).unwrap_or(SEED)
-}
 pub(super) fn all() -> Result<Vec<Family>> {
     Ok(vec![
         sphere()?,
@@ -52,33 +49,23 @@ fn sphere() -> Result<Family> {
     })
 }
 
-/// The mesh with every vertex moved within its tangent plane, in a random direction, by a fixed part
-/// of its shortest edge.
+/// The mesh with every vertex moved within its tangent plane by a fixed part of its shortest edge;
+/// only the direction is random.
 ///
-/// With lengths at random too, finer levels would have the odder triangles: the largest of more
-/// numbers is larger. Then the largest error falls more slowly than the order says.
+/// With random lengths, finer levels would have odder triangles, for the largest of more numbers is
+/// larger, and the largest error would fall more slowly than the order says.
 fn jitter(mesh: &TriMesh, seed: u64) -> Result<TriMesh> {
-    let fixed = std::env::var("JM").is_ok_and(|m| m == "fixed");
-    let amount: f64 = std::env::var("JA").ok().and_then(|x| x.parse().ok()).unwrap_or(JITTER);
-    if !fixed {
-        return Ok(jittered(mesh, amount, seed));
-    }
     let topology = mesh.topology();
-    let seeds = jittered(mesh, 1.0, seed);
+    let directions = jittered(mesh, 1.0, seed);
     let positions = VertexMap::from_fn(topology.vertex_count(), |v| {
         let edges = topology.fan(v).map(|h| topology.edge(h));
         let shortest = edges.map(|e| mesh.edge_length(e)).fold(f64::INFINITY, f64::min);
-        let normal: DVec3 = topology
-            .fan(v)
-            .map(|h| {
-                let [a, b, c] = mesh.triangle(h.face());
-                (b - a).cross(c - a)
-            })
-            .sum::<DVec3>()
-            .normalize();
-        let random = seeds.position(v) - mesh.position(v);
-        let tangent = (random - normal * random.dot(normal)).normalize_or_zero();
-        mesh.position(v) + tangent * (amount * shortest)
+        let area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
+        let areas = topology.fan(v).map(|h| area(mesh.triangle(h.face())));
+        let normal = areas.sum::<DVec3>().normalize_or_zero();
+        let direction = directions.position(v) - mesh.position(v);
+        let tangent = direction.reject_from_normalized(normal).normalize_or_zero();
+        mesh.position(v) + tangent * (JITTER * shortest)
     });
     Ok(mesh.clone().with_positions(positions)?)
 }
@@ -89,7 +76,7 @@ fn torus() -> Result<Family> {
     let field = shape.field();
     let grid = |level: u64| {
         let cells = 8 << level;
-        let mesh = jitter(&torus_grid([5.0, 1.0], 2 * cells, cells), seed() + level)?;
+        let mesh = jitter(&torus_grid([5.0, 1.0], 2 * cells, cells), SEED + level)?;
         on_surface(&mesh, &*field).context("a vertex has no foot")
     };
     let meshes = (0..4).map(grid).collect::<Result<_>>()?;
@@ -100,10 +87,10 @@ fn torus() -> Result<Family> {
 fn star_shaped(name: &'static str, formula: &str) -> Result<Family> {
     let field = Formula::parse(formula)?;
     let mesh = |level: u64| {
-        let sphere = icosphere(usize::try_from(level).unwrap_or(usize::MAX));
-        radially_on_surface(&jitter(&sphere, seed() + level).expect("x"), &field, 4.0)
+        let sphere = icosphere(usize::try_from(level)?);
+        Ok(radially_on_surface(&jitter(&sphere, SEED + level)?, &field, 4.0))
     };
-    let meshes = (1..6).map(mesh).collect();
+    let meshes = (1..6).map(mesh).collect::<Result<_>>()?;
     Ok(Family { name, formula: formula.into(), field: Box::new(field), meshes })
 }
 
@@ -116,11 +103,14 @@ fn double_torus() -> Result<Family> {
     let dense = polygonize_to_faces(&*field, &shape.region, 20 * FACES)?.mesh;
     let target = FieldTarget::new(&*field, dense.diagonal(), settings.projection);
     let coarse = simplify(dense, &target, &SimplifySettings::to_faces(FACES))?.mesh;
-    let mut meshes = vec![coarse];
+    let mut split = vec![coarse];
     for level in 1..4 {
-        let finer = refined(&meshes[meshes.len() - 1]);
-        let moved = on_surface(&jitter(&finer, seed() + level)?, &*field);
-        meshes.push(moved.context("a vertex has no foot")?);
+        let finer = on_surface(&refined(&split[level - 1]), &*field);
+        split.push(finer.context("a vertex has no foot")?);
     }
+    let jittered = (SEED..).zip(&split).map(|(seed, mesh)| {
+        on_surface(&jitter(mesh, seed)?, &*field).context("a vertex has no foot")
+    });
+    let meshes = jittered.collect::<Result<_>>()?;
     Ok(Family { name: "double torus", formula: shape.formula.into(), field, meshes })
 }

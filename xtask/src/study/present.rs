@@ -42,21 +42,28 @@ pub(super) fn convergence(family: &Convergence) -> Table {
 }
 
 fn with_order(before: Option<f64>, x: f64) -> String {
-    let order = before.map(|before| format!(" ({:.1})", order(before, x)));
+    // no order where nothing is left to measure
+    let order = before.filter(|_| x > 0.0).map(|before| format!(" ({:.1})", order(before, x)));
     scientific(x) + &order.unwrap_or_default()
 }
 
 pub(super) fn cost(costs: &[Cost]) -> Table {
-    let mut table = Table::new(&["method", "faces", "s", "µs per face"]);
+    let mut table = Table::new(&["method", "faces", "s", "µs per face", "by stage, µs per face"]);
     for cost in costs {
         table.add(vec![
             format!("{:?}", cost.method).to_lowercase(),
             cost.faces.to_string(),
             format!("{:.3}", cost.seconds),
             format!("{:.1}", cost.microseconds_per_face),
+            stages(cost),
         ]);
     }
     table
+}
+
+fn stages(cost: &Cost) -> String {
+    let stage = |(name, x): (&String, &f64)| format!("{name} {x:.1}");
+    cost.stages.iter().map(stage).collect::<Vec<_>>().join(", ")
 }
 
 pub(super) fn checks(checks: &[Check]) -> Table {

@@ -13,7 +13,7 @@ use smoothpatch::io::{VtuReadError, VtuSurface, read_vtu_file};
 use smoothpatch::measure::{Continuity, Deviation, continuity, deviation, folded_patches};
 
 use super::bounds::{Bounds, Verdict};
-use crate::table::{Table, degrees, length, of_diagonal, yes_no};
+use crate::table::{Table, degrees, grid, length, of_diagonal, yes_no};
 
 /// A septic triangle has 36 control points.
 type Patches = VtuSurface<36>;
@@ -150,6 +150,7 @@ fn fill(table: &mut Table, measured: &Measured) {
         table.row("max deviation", of_diagonal(deviation.max));
         table.row("RMS deviation", of_diagonal(deviation.rms));
         table.row("max normal error", degrees(deviation.max_normal_deg));
+        table.row("finest grid", grid(deviation.grid));
         if deviation.failed_samples > 0 {
             table.row("samples without foot", deviation.failed_samples);
         }

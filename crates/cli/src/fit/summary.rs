@@ -5,7 +5,7 @@ use smoothpatch::{Adaptation, Distance, Report, Stage, Tolerance};
 
 use super::outputs::Written;
 use super::task::{BaseMesh, Task, method_name};
-use crate::table::{Table, bytes, degrees, length, of_diagonal, yes_no};
+use crate::table::{Table, bytes, degrees, grid, length, of_diagonal, yes_no};
 use crate::values::region_text;
 
 pub(crate) fn summary(
@@ -44,6 +44,10 @@ fn origin(table: &mut Table, task: &Task) {
         }
         BaseMesh::Given { file, .. } => table.row("base mesh", file.display()),
     }
+    if let (BaseMesh::Adapted { .. }, Some(_)) = (&task.base, &task.chosen.file) {
+        let faces = task.chosen.scene.faces;
+        table.row("faces of the scene", format!("{faces}, not used: the tolerance decides"));
+    }
 }
 
 fn proof(table: &mut Table, certificate: &Certificate) {
@@ -61,15 +65,24 @@ fn proof(table: &mut Table, certificate: &Certificate) {
 
 fn accuracy(table: &mut Table, adaptation: &Adaptation) {
     let Tolerance { distance, normal_deg } = adaptation.tolerance;
-    let mut asked = match distance {
-        Distance::Relative(part) => of_diagonal(part),
-        Distance::Absolute(value) => length(value),
-    };
+    let mut asked = distance_with_unit(distance);
     if let Some(angle) = normal_deg {
         asked += &format!(", normals {}", degrees(angle));
     }
     let met = if adaptation.met { "met" } else { "NOT met" };
-    table.row("tolerance", format!("{asked}: {met} after {} base meshes", adaptation.rounds));
+    let rounds = match adaptation.rounds {
+        1 => "1 base mesh".to_owned(),
+        count => format!("{count} base meshes"),
+    };
+    table.row("tolerance", format!("{asked}: {met} after {rounds}"));
+}
+
+/// A number and what it is measured in.
+pub(super) fn distance_with_unit(distance: Distance) -> String {
+    match distance {
+        Distance::Relative(part) => of_diagonal(part),
+        Distance::Absolute(value) => format!("{} (a length)", length(value)),
+    }
 }
 
 fn quality(table: &mut Table, report: &Report) {
@@ -85,6 +98,7 @@ fn quality(table: &mut Table, report: &Report) {
     table.row("max deviation", of_diagonal(deviation.max));
     table.row("RMS deviation", of_diagonal(deviation.rms));
     table.row("max normal error", degrees(deviation.max_normal_deg));
+    table.row("finest grid", grid(deviation.grid));
     if deviation.failed_samples > 0 {
         table.row("samples without foot", deviation.failed_samples);
     }

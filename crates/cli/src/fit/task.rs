@@ -42,20 +42,16 @@ impl Task {
             .scene(arguments.scene.as_deref())?
             .ok_or_else(|| anyhow!("no surface is given"))?;
         let field = field_of(&chosen.scene.surface)?;
-        let base = match (tolerance(arguments), given_mesh(arguments, &chosen)?) {
-            (Some(_), Some((file, _))) => bail!(
-                "{}: a base mesh is not changed, so no accuracy can be asked for; leave \
-                 --tolerance out or take a scene without base mesh",
-                file.display()
-            ),
-            (Some(tolerance), None) => {
-                BaseMesh::Adapted { region: region(arguments, &chosen, &*field)?, tolerance }
-            }
-            (None, Some((file, mesh))) => BaseMesh::Given { file, mesh },
-            (None, None) => BaseMesh::Made {
+        let base = if let Some(tolerance) = tolerance(arguments) {
+            refuse_base_mesh(arguments, &chosen)?;
+            BaseMesh::Adapted { region: region(arguments, &chosen, &*field)?, tolerance }
+        } else if let Some((file, mesh)) = given_mesh(arguments, &chosen)? {
+            BaseMesh::Given { file, mesh }
+        } else {
+            BaseMesh::Made {
                 region: region(arguments, &chosen, &*field)?,
                 faces: arguments.faces.unwrap_or(chosen.scene.faces),
-            },
+            }
         };
         let method = arguments.method.into();
         let settings = Settings::with_faces(base.faces()).with_method(method);
@@ -120,6 +116,22 @@ fn tolerance(arguments: &FitArguments) -> Option<Tolerance> {
     let normal_deg = arguments.normal_tolerance;
     (arguments.tolerance.is_some() || normal_deg.is_some())
         .then_some(Tolerance { distance, normal_deg })
+}
+
+/// The parser refuses the option `--base-mesh`; this is about the scene's.
+fn refuse_base_mesh(arguments: &FitArguments, chosen: &ChosenScene) -> anyhow::Result<()> {
+    let Some(scene) = chosen.file.as_ref().filter(|_| chosen.scene.base_mesh.is_some()) else {
+        return Ok(());
+    };
+    let option = match arguments.tolerance {
+        Some(_) => "--tolerance",
+        None => "--normal-tolerance",
+    };
+    bail!(
+        "{}: the scene has a base mesh, whose faces become the patches as they are, but {option} \
+         asks for an accuracy; leave one of them out",
+        scene.display()
+    )
 }
 
 /// The base mesh that the options or the scene name, unless a region is given to look in.

@@ -4,6 +4,8 @@ use crate::workplace::{Run, Workplace};
 
 const UNKNOWN_KEY: &str =
     r#"(version: 1, name: "a", surface: Shape("sphere"), faces: 20, colour: 3)"#;
+const BASE_MESH: &str =
+    r#"(version: 1, name: "a", surface: Shape("sphere"), faces: 6, base_mesh: "manifold.obj")"#;
 const THREE_FACES_AT_AN_EDGE: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
 const OPEN: &str = "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
@@ -26,6 +28,7 @@ const PINCHED: &str = "x^4 - x^2 + y^2 + z^2";
 fn place() -> Workplace {
     let place = Workplace::with_ball();
     place.write("key.ron", UNKNOWN_KEY);
+    place.write("based.ron", BASE_MESH);
     place.write("binary.ron", [0xff, 0xfe, 0x00]);
     place.write("manifold.obj", THREE_FACES_AT_AN_EDGE);
     place.write("open.obj", OPEN);
@@ -217,11 +220,49 @@ fn tolerances_that_mean_nothing() {
     fit_refuses(
         &[
             &["--shape", "sphere", "--tolerance", "0"],
+            &["--shape", "sphere", "--tolerance", "-1e-5"],
             &["--shape", "sphere", "--tolerance", "nan"],
             &["--shape", "sphere", "--tolerance", "1e-18"],
+            &["--shape", "sphere", "--tolerance", "1e-18", "--absolute"],
+            &["--shape", "sphere", "--normal-tolerance", "0"],
+            &["--shape", "sphere", "--normal-tolerance", "inf"],
+            &["--shape", "sphere", "--normal-tolerance", "1e-18"],
+        ],
+        &[
+            &["above zero"],
+            &["above zero"],
+            &["finite"],
+            &["1e-11"],
+            &["e-11"],
+            &["above zero"],
+            &["finite"],
+            &["1e-9°"],
+        ],
+    );
+}
+
+#[test]
+fn tolerances_with_what_they_exclude() {
+    fit_refuses(
+        &[
             &["--shape", "sphere", "--tolerance", "1e-5", "--faces", "40"],
+            &["--shape", "sphere", "--normal-tolerance", "1", "--faces", "40"],
+            &["--shape", "sphere", "--tolerance", "1e-5", "--base-mesh", "open.obj"],
+            &["--shape", "sphere", "--normal-tolerance", "1", "--base-mesh", "open.obj"],
+            &["based.ron", "--tolerance", "1e-5"],
+            &["based.ron", "--normal-tolerance", "1"],
+            &["based.ron", "--tolerance", "1e-5", "--region", "-2,-2,-2,2,2,2"],
             &["--shape", "sphere", "--absolute"],
         ],
-        &[&["above zero"], &["finite"], &["1e-11"], &["--faces"], &["--tolerance"]],
+        &[
+            &["--tolerance", "cannot be used with", "--faces"],
+            &["--normal-tolerance", "cannot be used with", "--faces"],
+            &["--tolerance", "cannot be used with", "--base-mesh"],
+            &["--normal-tolerance", "cannot be used with", "--base-mesh"],
+            &["based.ron", "base mesh", "but --tolerance asks"],
+            &["based.ron", "base mesh", "but --normal-tolerance asks"],
+            &["based.ron", "base mesh", "but --tolerance asks"],
+            &["--tolerance"],
+        ],
     );
 }

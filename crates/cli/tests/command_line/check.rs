@@ -17,6 +17,7 @@ fn a_good_file_passes_and_its_figures_are_those_of_the_fit() {
     place.succeed("check ball.vtu");
     let table = place.succeed(&format!("check ball.vtu --shape sphere {GOOD}"));
     assert_eq!(table.matches("\n  ok ").count(), 9, "{table}");
+    assert!(table.contains("finest grid           32 divisions"), "{table}");
 
     let text = place.succeed(&format!("check ball.vtu --shape sphere --json {GOOD}"));
     let found: Value = serde_json::from_str(&text).unwrap();

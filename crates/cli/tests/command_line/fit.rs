@@ -32,6 +32,8 @@ fn all_files_are_written_and_agree() {
 
     assert_eq!(surface.topology.face_count(), 60);
     assert_eq!(report["continuity"]["faces"], 60);
+    assert_eq!(report["deviation"]["grid"], 32);
+    assert_eq!(report.get("adaptation"), None);
     assert_eq!(triangles(&place, "a.obj").topology().face_count(), 60 * 9);
     assert!(triangles(&place, "a.obj").topology().is_closed(), "the triangulation has cracks");
 
@@ -50,6 +52,7 @@ fn all_files_are_written_and_agree() {
         "max deviation ",
         "RMS deviation ",
         "max normal error ",
+        "finest grid           32 divisions",
         "polygonize ",
         "measure ",
         "wrote                 a.vtu (",
@@ -182,6 +185,9 @@ fn a_surface_with_edges_is_fitted_with_warnings() {
     let run = place.run_with(&[&cube[..], &["-o", "a.vtu"]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(run.stderr.starts_with("warning: "), "no warning: {}{}", run.stdout, run.stderr);
+    let place_of_edge = ["around [", "a sharp edge?"];
+    assert!(place_of_edge.iter().all(|part| run.stderr.contains(part)), "{}", run.stderr);
+    assert!(run.stdout.contains("patches taken back "), "{}", run.stdout);
     let run = place.run_with(&[&cube[..], &["-o", "b.vtu", "--quiet"]].concat());
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
 }
@@ -206,4 +212,64 @@ fn a_normal_tolerance_alone() {
     let place = Workplace::new();
     place.succeed("fit --shape sphere --normal-tolerance 0.05 -o s.vtu");
     place.succeed("check s.vtu --shape sphere --max-normal-error 0.05 --max-deviation 1e-4");
+}
+
+#[test]
+fn a_length_as_tolerance() {
+    let place = Workplace::new();
+    // the sphere's diagonal is 2 sqrt(3)
+    let table =
+        place.succeed("fit --shape sphere --tolerance 1e-6 --absolute -o s.vtu --report s.json");
+    assert!(table.contains("1.00e-6 (a length): met"), "{table}");
+    let report = place.json("s.json");
+    assert_eq!(report["adaptation"]["tolerance"]["distance"]["Absolute"], 1e-6);
+    let part = 1e-6 / report["deviation"]["diagonal"].as_f64().unwrap();
+    place.succeed(&format!("check s.vtu --shape sphere --max-deviation {part}"));
+}
+
+#[test]
+fn a_tolerance_goes_before_the_faces_of_the_scene() {
+    let place = Workplace::new();
+    place.write("ball.ron", r#"(version: 1, name: "ball", surface: Shape("sphere"), faces: 10)"#);
+    let table = place.succeed("fit ball.ron --tolerance 1e-5 -o s.vtu --report s.json");
+    assert!(table.contains("faces of the scene    10, not used: the tolerance"), "{table}");
+    let report = place.json("s.json");
+    assert!(report["continuity"]["faces"].as_u64().unwrap() > 10, "{report}");
+    assert_eq!(report.get("faces_asked"), None);
+}
+
+/// A ball with two tips, where normals jump by more than any tolerance of normals allows.
+#[test]
+fn a_tolerance_that_is_not_met() {
+    let place = Workplace::new();
+    let run = place.run_with(&[
+        "fit",
+        "--formula",
+        "x^2 + y^2 + z^2 - 1 + 0.45*sqrt(x^2 + y^2)",
+        "--region",
+        "-2,-2,-2,2,2,2",
+        "--tolerance",
+        "1",
+        "--method",
+        "published",
+        "-o",
+        "a.vtu",
+        "--report",
+        "a.json",
+    ]);
+    assert_eq!(run.code, 1, "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.contains("NOT met"), "{}", run.stdout);
+    assert!(run.stderr.contains("warning: the tolerance is not met"), "{}", run.stderr);
+    assert!(run.stderr.contains("(asked for: 1.00e1°)"), "{}", run.stderr);
+    let report = place.json("a.json");
+    assert_eq!(report["adaptation"]["met"], false);
+    assert!(report["deviation"]["max_normal_deg"].as_f64().unwrap() > 9.5, "{report}");
+    assert_eq!(patches(&place, "a.vtu").topology.face_count(), report["continuity"]["faces"]);
+}
+
+/// The search for a region works in threads, too.
+#[test]
+fn threads_can_be_limited_without_a_region() {
+    let place = Workplace::new();
+    place.succeed("fit --formula x^2+y^2+z^2-1 --faces 20 --threads 1 -o a.vtu");
 }
