@@ -7,14 +7,17 @@ mod interpolants;
 mod levels;
 mod lobatto;
 mod present;
+mod tolerance;
 
 use anyhow::{Context, Result};
+use clap::ValueEnum;
 use serde::Serialize;
 
 use checks::Check;
 use cost::Cost;
 use families::Family;
 use levels::Level;
+use tolerance::Scene;
 
 /// The levels of one family, coarse ones first.
 #[derive(Debug, Serialize)]
@@ -24,34 +27,64 @@ struct Convergence {
     levels: Vec<Level>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 struct Study {
     convergence: Vec<Convergence>,
+    tolerance: Vec<Scene>,
     cost: Vec<Cost>,
     checks: Vec<Check>,
 }
 
-/// Returns whether all orders and costs are as promised.
-pub(crate) fn run() -> Result<bool> {
-    let mut convergence = Vec::new();
-    for family in families::all()? {
+/// What can be run alone.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Part {
+    /// Everything.
+    All,
+    /// How the errors fall when edges are halved.
+    Convergence,
+    /// Fits with an accuracy, against a sweep over numbers of faces.
+    Tolerance,
+    /// What a face costs.
+    Cost,
+}
+
+/// Returns whether all orders, accuracies and costs are as promised.
+pub(crate) fn run(part: Part) -> Result<bool> {
+    let wanted = |other| part == Part::All || part == other;
+    let mut study = Study::default();
+    if wanted(Part::Convergence) {
+        study.convergence = convergence()?;
+        study.checks.extend(study.convergence.iter().flat_map(checks::orders));
+        study.checks.extend(checks::invariants(&study.convergence));
+    }
+    if wanted(Part::Tolerance) {
+        for shape in tolerance::SHAPES {
+            study.tolerance.push(tolerance::measure(shape).context(shape)?);
+            let last = study.tolerance.last().map_or(&[][..], std::slice::from_ref);
+            println!("\n{}", present::tolerance(last).text());
+        }
+        study.checks.extend(checks::tolerances(&study.tolerance));
+    }
+    if wanted(Part::Cost) {
+        study.cost = cost::measure()?;
+        println!("\ncost\n{}", present::cost(&study.cost).text());
+        study.checks.extend(checks::costs(&study.cost));
+    }
+    println!("\n{}", present::checks(&study.checks).text());
+    write(&study)?;
+    Ok(study.checks.iter().all(|check| check.holds))
+}
+
+fn convergence() -> Result<Vec<Convergence>> {
+    let measured = families::all()?.into_iter().map(|family| {
         let levels = family.meshes.iter().map(|mesh| levels::measure(&family, mesh.clone()));
         let levels = levels.collect::<Result<_>>().with_context(|| family.name)?;
         let Family { name, formula, .. } = family;
         let one = Convergence { family: name, formula, levels };
         println!("\n{name}: {}\n{}", one.formula, present::convergence(&one).text());
-        convergence.push(one);
-    }
-    let cost = cost::measure()?;
-    println!("\ncost\n{}", present::cost(&cost).text());
-
-    let mut checks: Vec<Check> = convergence.iter().flat_map(checks::orders).collect();
-    checks.extend(checks::invariants(&convergence));
-    checks.extend(checks::costs(&cost));
-    println!("\n{}", present::checks(&checks).text());
-    let good = checks.iter().all(|check| check.holds);
-    write(&Study { convergence, cost, checks })?;
-    Ok(good)
+        Ok(one)
+    });
+    measured.collect()
 }
 
 /// Writes `study.json` and `study.md` to `target/verify`.

@@ -32,9 +32,15 @@ pub(crate) struct Options {
     /// Take the measured figures as the golden numbers.
     #[arg(long)]
     bless: bool,
-    /// Also the study of convergence and cost.
-    #[arg(long)]
-    full: bool,
+    /// Also the study, or one part of it.
+    #[arg(
+        long,
+        value_name = "PART",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "all"
+    )]
+    full: Option<crate::study::Part>,
     /// Number of threads; by default one per core.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -78,7 +84,10 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
         golden.write(&golden_file).with_context(|| golden_file.display().to_string())?;
         println!("golden numbers written to {}", golden_file.display());
     }
-    let good_study = !options.full || crate::study::run()?;
+    let good_study = match options.full {
+        Some(part) => crate::study::run(part)?,
+        None => true,
+    };
     Ok(good && good_study)
 }
 

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::Convergence;
 use super::cost::Cost;
 use super::levels::{Errors, Level, Variant};
+use super::tolerance::{Fit, Scene};
 
 /// One statement with its figure.
 #[derive(Debug, Serialize)]
@@ -93,6 +94,20 @@ pub(super) fn invariants(families: &[Convergence]) -> Vec<Check> {
         Check::at_most("folds, refined".into(), folds(Variant::Refined) as f64, 0.0),
         Check::at_most("max deviation, refined over published".into(), worst_ratio, 1.0),
     ]
+}
+
+/// Accuracies that were asked for: met everywhere, and not with many more faces than needed.
+pub(super) fn tolerances(scenes: &[Scene]) -> Vec<Check> {
+    let missed = |scene: &Scene| scene.fits.iter().filter(|fit| !fit.holds()).count();
+    let excess = |scene: &Scene| scene.fits.iter().map(Fit::excess).fold(0.0, f64::max);
+    let of_scene = |scene: &Scene| {
+        let what = |text: &str| format!("{}: {text}", scene.shape);
+        [
+            Check::at_most(what("tolerances missed"), missed(scene) as f64, 0.0),
+            Check::at_most(what("faces over those of a sweep"), excess(scene), 1.5),
+        ]
+    };
+    scenes.iter().flat_map(of_scene).collect()
 }
 
 /// Cost per face of each method: the largest over the smallest.

@@ -3,6 +3,7 @@
 use super::checks::{Check, name, order};
 use super::cost::Cost;
 use super::levels::{Errors, Level, Variant};
+use super::tolerance::Scene;
 use super::{Convergence, Study};
 use crate::table::{Table, scientific};
 
@@ -45,6 +46,37 @@ fn with_order(before: Option<f64>, x: f64) -> String {
     // no order where nothing is left to measure
     let order = before.filter(|_| x > 0.0).map(|before| format!(" ({:.1})", order(before, x)));
     scientific(x) + &order.unwrap_or_default()
+}
+
+/// One line per shape and accuracy.
+pub(super) fn tolerance(scenes: &[Scene]) -> Table {
+    let mut table = Table::new(&[
+        "shape",
+        "tolerance",
+        "faces",
+        "max",
+        "folds",
+        "s, one thread",
+        "sweep",
+        "ratio",
+        "exponent",
+    ]);
+    for scene in scenes {
+        for fit in &scene.fits {
+            table.add(vec![
+                scene.shape.to_owned(),
+                scientific(fit.tolerance),
+                fit.faces.to_string(),
+                scientific(fit.deviation),
+                fit.folds.to_string(),
+                format!("{:.2}", fit.seconds),
+                fit.sweep_faces.map_or("more".to_owned(), |faces| faces.to_string()),
+                fit.sweep_faces.map_or(String::new(), |_| format!("{:.2}", fit.excess())),
+                format!("{:.2}", scene.exponent),
+            ]);
+        }
+    }
+    table
 }
 
 pub(super) fn cost(costs: &[Cost]) -> Table {
@@ -91,6 +123,12 @@ pub(super) fn page(study: &Study) -> String {
         let Convergence { family: name, formula, .. } = family;
         page += &format!("\n## {name}: `{formula}`\n\n{}", convergence(family).markdown());
     }
+    page += &format!(
+        "\n## Fits with an accuracy\n\n`sweep` is the smallest number of faces, of those growing by \
+         10 % from step to step, with which `--faces` is within the accuracy; `exponent` is the \
+         slope of the faces over the accuracy.\n\n{}",
+        tolerance(&study.tolerance).markdown()
+    );
     page +=
         &format!("\n## Cost of the whole pipeline, one thread\n\n{}", cost(&study.cost).markdown());
     page += &format!("\n## Checks\n\n{}", checks(&study.checks).markdown());
