@@ -5,6 +5,9 @@ use implicit::{ImplicitField, ProjectionSettings, project_many, project_with_gra
 
 use crate::target::{Foot, SurfaceTarget};
 
+/// Points at which the field is evaluated together for linear feet; these need no heap.
+const BATCH: usize = 16;
+
 /// The zero set of a field; feet are found by Newton steps along the gradient.
 #[derive(Clone, Copy)]
 pub struct FieldTarget<'a> {
@@ -49,13 +52,19 @@ impl SurfaceTarget for FieldTarget<'_> {
 
     fn linear_feet(&self, points: &[DVec3], feet: &mut [Option<Foot>]) {
         assert_eq!(points.len(), feet.len(), "one foot per point");
-        let mut values = vec![(0.0, DVec3::ZERO); points.len()];
-        self.field.value_gradients(points, &mut values);
-        for ((foot, &point), (value, gradient)) in feet.iter_mut().zip(points).zip(values) {
-            let slope = gradient.length();
-            let usable = slope > 0.0 && slope.is_finite() && value.is_finite();
-            let normal = gradient / slope;
-            *foot = usable.then(|| Foot { point: point - normal * (value / slope), normal });
+        let mut values = [(0.0, DVec3::ZERO); BATCH];
+        for (points, feet) in points.chunks(BATCH).zip(feet.chunks_mut(BATCH)) {
+            let values = &mut values[..points.len()];
+            self.field.value_gradients(points, values);
+            for ((foot, &point), &mut (value, gradient)) in feet.iter_mut().zip(points).zip(values)
+            {
+                let slope = gradient.length();
+                let inverse = slope.recip();
+                let usable = slope.is_finite() && inverse.is_finite() && value.is_finite();
+                let normal = gradient * inverse;
+                let point = point - normal * (value * inverse);
+                *foot = usable.then_some(Foot { point, normal });
+            }
         }
     }
 }

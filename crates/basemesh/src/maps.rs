@@ -15,6 +15,17 @@ fn collect<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
     (0..count).map(f).collect()
 }
 
+#[cfg(feature = "rayon")]
+fn change<T: Send>(values: &mut [T], f: impl Fn(usize, &mut T) + Sync) {
+    use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
+    values.par_iter_mut().enumerate().for_each(|(i, value)| f(i, value));
+}
+
+#[cfg(not(feature = "rayon"))]
+fn change<T: Send>(values: &mut [T], f: impl Fn(usize, &mut T) + Sync) {
+    values.iter_mut().enumerate().for_each(|(i, value)| f(i, value));
+}
+
 macro_rules! element_map {
     ($(#[$doc:meta])* $name:ident, $id:ident) => {
         $(#[$doc])*
@@ -61,6 +72,14 @@ macro_rules! element_map {
                 T: Sync,
             {
                 $name(collect(self.0.len(), |i| f($id::new(i), &self.0[i])))
+            }
+
+            /// Changes every value in its place, without a second map.
+            pub fn change(&mut self, f: impl Fn($id, &mut T) + Sync)
+            where
+                T: Send,
+            {
+                change(&mut self.0, |i, value| f($id::new(i), value));
             }
 
             /// Number of elements.

@@ -34,6 +34,9 @@ pub struct RemeshSettings {
     /// longest or shortest in relation to what is wanted are split or collapsed until it is reached,
     /// if the limits allow it. Default none.
     pub faces: Option<usize>,
+    /// No edge is split once there are this many faces: at a sharp edge splits would not end. Default
+    /// none.
+    pub most_faces: Option<usize>,
 }
 
 impl Default for RemeshSettings {
@@ -44,6 +47,7 @@ impl Default for RemeshSettings {
             longest: 4.0 / 3.0,
             shortest: 4.0 / 5.0,
             faces: None,
+            most_faces: None,
         }
     }
 }
@@ -68,6 +72,10 @@ pub enum RemeshError {
 /// Splits, collapses and flips edges and moves vertices along the surface until edges are about as
 /// long as wanted: [`RemeshSettings::shortest`] to [`RemeshSettings::longest`] times the mean of
 /// the `lengths` at their ends.
+///
+/// A wanted length stands for the size of triangles: that of equilateral ones with such edges.
+/// Their shape follows the surface, as in [`improve`](crate::improve()): lengths count the turning of the
+/// surface normal, so that triangles are longer along a ridge than across it.
 ///
 /// Only the surroundings of vertices with a wanted length change; vertices without one stay where
 /// they are, bit for bit, though edges between them may be flipped or split when a neighbour
@@ -101,7 +109,9 @@ pub fn remesh(
         let [a, b] = mesh.topology().edge_vertices(edge).map(VertexId::index);
         ImproveError::Open { a, b }
     })?;
-    let mut work = Remesh { surface, lengths: lengths.as_slice().to_vec() };
+    let metric = Metric::with_turning(&surface, settings.limits.turning_weight);
+    let mut work = Remesh { surface, lengths: lengths.as_slice().to_vec(), metric };
+    work.measure_in_metric();
     let guard = settings.limits.guard();
     let mut report = ImproveReport::default();
     for round in 1..=settings.rounds {
@@ -111,7 +121,7 @@ pub fn remesh(
             work.split_until(faces, settings);
             work.collapse_until(faces, &guard);
         }
-        for goal in [FlipGoal::Valence, FlipGoal::Delaunay(Metric::SPACE)] {
+        for goal in [FlipGoal::Valence, FlipGoal::Delaunay(work.metric)] {
             report.flips += flip_edges(&mut work.surface, &guard, goal);
             report.moves += work.relax(settings, &guard);
         }
@@ -122,19 +132,38 @@ pub fn remesh(
     Ok(Improved { mesh, normals, report })
 }
 
-/// A mesh under change with the wanted length of every vertex slot.
+/// A mesh under change with the wanted length of every vertex slot, measured in the metric.
 pub(crate) struct Remesh<'a> {
     surface: SurfaceMesh<'a>,
     lengths: Vec<Option<f64>>,
+    metric: Metric,
 }
 
 impl Remesh<'_> {
+    /// Wanted lengths in space become lengths in the metric: those of triangles with the same area
+    /// in space.
+    fn measure_in_metric(&mut self) {
+        for v in (0..self.surface.mesh.vertex_slots()).map(VertexId::new) {
+            let [space, metric] = [Metric::SPACE, self.metric].map(|m| m.area(&self.surface, v));
+            if let Some(length) = &mut self.lengths[v.index()]
+                && space > 0.0
+                && metric > 0.0
+            {
+                *length *= (metric / space).sqrt();
+            }
+        }
+    }
+
+    /// The length of an edge in the metric.
+    fn length(&self, [a, b]: [VertexId; 2]) -> f64 {
+        self.metric.squared(&self.surface, a, b).sqrt()
+    }
+
     /// Length of the edge over the wanted one; `None` if neither end has a wish.
     fn excess(&self, h: crate::HalfedgeId) -> Option<f64> {
         let mesh = &self.surface.mesh;
         let ends = [mesh.origin(h), mesh.target(h)];
-        let length = mesh.position(ends[0]).distance(mesh.position(ends[1]));
-        self.wanted(ends).map(|wanted| length / wanted)
+        self.wanted(ends).map(|wanted| self.length(ends) / wanted)
     }
 
     /// The wanted length of an edge between two vertices.

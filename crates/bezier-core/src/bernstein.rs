@@ -34,14 +34,18 @@ pub const fn binomial(n: usize, k: usize) -> f64 {
 /// They are positive inside (0, 1) and add up to one; `t` may lie outside.
 #[inline]
 #[must_use]
-pub fn bernstein<const P: usize>(t: f64) -> [f64; P] {
+pub const fn bernstein<const P: usize>(t: f64) -> [f64; P] {
     let mut values = [0.0; P];
     values[0] = 1.0;
-    for degree in 1..P {
-        for k in (1..=degree).rev() {
+    let mut degree = 1;
+    while degree < P {
+        let mut k = degree;
+        while k > 0 {
             values[k] = values[k] * (1.0 - t) + values[k - 1] * t;
+            k -= 1;
         }
         values[0] *= 1.0 - t;
+        degree += 1;
     }
     values
 }

@@ -66,15 +66,22 @@ impl<V: Coefficient, const P: usize> BezierTriangle<V, P> {
     /// The same patch with `corner` as its first corner.
     #[must_use]
     pub fn starting_at(&self, corner: Corner) -> Self {
-        Self::from_fn(|MultiIndex { i, j, k }| {
-            let m = match corner {
-                Corner::First => MultiIndex::new(i, j, k),
-                Corner::Second => MultiIndex::new(k, i, j),
-                Corner::Third => MultiIndex::new(j, k, i),
-            };
-            self[m]
-        })
+        Self { net: Self::TURNED[corner.index()].map(|rank| self.net[rank]) }
     }
+
+    /// The old ranks of the control points of a patch that starts at each corner.
+    const TURNED: [[usize; P]; 3] = {
+        let mut turned = [[0; P]; 3];
+        let mut rank = 0;
+        while rank < P {
+            let MultiIndex { i, j, k } = MultiIndex::at_rank(Self::DEGREE, rank);
+            turned[Corner::First.index()][rank] = rank;
+            turned[Corner::Second.index()][rank] = MultiIndex::new(k, i, j).rank();
+            turned[Corner::Third.index()][rank] = MultiIndex::new(j, k, i).rank();
+            rank += 1;
+        }
+        turned
+    };
 
     /// Control points by rank.
     #[inline]

@@ -4,9 +4,12 @@ use clap::{Parser, Subcommand};
 
 use crate::check::CheckArguments;
 use crate::fit::FitArguments;
+use crate::nagata::NagataArguments;
+use crate::query::QueryArguments;
 use crate::shapes::ShapesArguments;
 
-/// Fits implicit surfaces with G1 patches of degree 7 and measures the result.
+/// Fits implicit surfaces with G1 patches of degree 7, curves meshes with normals, and measures the
+/// result.
 #[derive(Parser)]
 #[command(name = "smoothpatch", version, after_help = OVERVIEW)]
 pub(crate) struct Arguments {
@@ -18,6 +21,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     Fit(FitArguments),
     Check(CheckArguments),
+    Nagata(NagataArguments),
+    Query(QueryArguments),
     Shapes(ShapesArguments),
 }
 
@@ -33,6 +38,8 @@ const OVERVIEW: &str = "\
 Examples:
   smoothpatch fit --shape torus --faces 600 -o torus.vtu
   smoothpatch check torus.vtu --shape torus --max-deviation 1e-5
+  smoothpatch nagata mesh.obj -o curved.vtu
+  smoothpatch query mesh.obj --points points.csv
   smoothpatch shapes
 
 Exit codes:

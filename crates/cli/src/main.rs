@@ -1,10 +1,14 @@
-//! The command line of smoothpatch: fit an implicit surface with G1 patches, check the result.
+//! The command line of smoothpatch: fit an implicit surface with G1 patches, check the result,
+//! curve a mesh with normals.
 
 mod arguments;
 mod check;
 mod exit;
 mod fit;
+mod nagata;
+mod output_files;
 mod progress;
+mod query;
 mod shapes;
 mod stdout;
 mod surface;
@@ -22,6 +26,8 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Fit(arguments) => fit::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Nagata(arguments) => nagata::run(&arguments),
+        Command::Query(arguments) => query::run(&arguments),
         Command::Shapes(arguments) => shapes::run(&arguments),
     };
     exit::code(result)

@@ -45,6 +45,17 @@ pub(crate) fn angle(text: &str) -> Result<f64, String> {
     })
 }
 
+/// An angle between the normals of two faces, in degrees.
+pub(crate) fn crease_angle(text: &str) -> Result<f64, String> {
+    finite(text).and_then(|degrees| {
+        if (0.0..=180.0).contains(&degrees) {
+            Ok(degrees)
+        } else {
+            Err("an angle between normals is from 0 to 180 degrees".into())
+        }
+    })
+}
+
 pub(crate) fn faces(text: &str) -> Result<usize, String> {
     let count: usize = text.parse().map_err(|_| format!("`{text}` is not a number of faces"))?;
     match count {

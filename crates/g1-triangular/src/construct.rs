@@ -1,7 +1,9 @@
 //! The construction, step by step [TK09, section 6].
 
-use basemesh::{EdgeMap, FaceMap, HalfedgeMap, SurfaceTarget, TriMesh, VertexMap};
-use bezier_core::{SepticTriangle, SurfaceJet};
+use basemesh::{
+    EdgeMap, FaceId, FaceMap, HalfedgeId, HalfedgeMap, SurfaceTarget, Topology, TriMesh, VertexMap,
+};
+use bezier_core::{MultiIndex, SepticTriangle, SurfaceJet};
 
 use crate::earlier::{Earlier, Nothing};
 use crate::edge_system::{EdgeRows, EdgeSystem};
@@ -9,7 +11,7 @@ use crate::error::JoinError;
 use crate::faces::{back_to_face, corner_halfedges, first_corner, local_edge};
 use crate::interior;
 use crate::network::CurveNetwork;
-use crate::plan::{Plan, Rows};
+use crate::plan::{InnerPoints, Plan, Rows};
 use crate::residual::g1_residual;
 use crate::tangent_planes;
 use crate::vertex_system::{SpokeSolution, solve_vertices};
@@ -92,7 +94,7 @@ pub fn join_reusing(
     mesh: &TriMesh,
     jets: &VertexMap<SurfaceJet>,
     network: &CurveNetwork,
-    positional: FaceMap<SepticTriangle>,
+    mut nets: FaceMap<SepticTriangle>,
     target: &dyn SurfaceTarget,
     plan: &Plan,
     earlier: &dyn Earlier,
@@ -100,20 +102,19 @@ pub fn join_reusing(
     let topology = mesh.topology();
     assert_eq!(jets.len(), topology.vertex_count(), "one jet per vertex");
     assert_eq!(network.curves().len(), topology.edge_count(), "one curve per edge");
-    assert_eq!(positional.len(), topology.face_count(), "one patch per face");
+    assert_eq!(nets.len(), topology.face_count(), "one patch per face");
     assert_eq!(plan.rows.len(), topology.edge_count(), "one choice per edge");
     assert_eq!(plan.inner_points.len(), topology.face_count(), "one choice per face");
 
     let origin = origin_weights(mesh, jets, network)?;
-    let twist =
-        |h: basemesh::HalfedgeId| positional[h.face()].first_inner_row::<7>(local_edge(h))[1];
+    let twist = |h: HalfedgeId| nets[h.face()][MultiIndex::along(local_edge(h), 5, 1, 1)];
     let spokes = solve_vertices(mesh, jets, network, &origin, &twist)?;
-    let twisted = set_twists(positional, &spokes);
+    nets.change(|face, net| set_twists(net, face, &spokes));
     let edges = EdgeMap::try_from_fn(topology.edge_count(), |edge| {
         if let Some(rows) = earlier.rows(edge) {
             return Ok(rows);
         }
-        let system = EdgeSystem::new(topology, network, &twisted, &origin, &spokes, edge)?;
+        let system = EdgeSystem::new(topology, network, &nets, &origin, &spokes, edge)?;
         let rows = match plan.rows[edge] {
             Rows::Nearest => None,
             Rows::TangentPlanes => tangent_planes::solve(&system, target),
@@ -121,51 +122,43 @@ pub fn join_reusing(
         let vertex = topology.origin(topology.canonical(edge)).index();
         rows.or_else(|| system.nearest()).ok_or(JoinError::DegenerateFan { vertex })
     })?;
-    let joined = set_rows(mesh, twisted, &edges);
-    let nets = joined.map(|face, net| {
-        let chosen = || {
+    nets.change(|face, net| {
+        if let Some(known) = earlier.patch(face) {
+            *net = known;
+            return;
+        }
+        set_rows(net, topology, face, &edges);
+        if plan.inner_points[face] != InnerPoints::Keep {
             let first = first_corner(topology, face);
-            interior::choose(&net.starting_at(first), plan.inner_points[face], target)
-                .starting_at(back_to_face(first))
-        };
-        earlier.patch(face).unwrap_or_else(chosen)
+            *net = interior::choose(&net.starting_at(first), plan.inner_points[face], target)
+                .starting_at(back_to_face(first));
+        }
     });
     Ok(SmoothPatches { nets, weights: edges.map(|_, edge| edge.weights) })
 }
 
-fn set_twists(
-    nets: FaceMap<SepticTriangle>,
-    spokes: &HalfedgeMap<SpokeSolution>,
-) -> FaceMap<SepticTriangle> {
-    nets.map(|face, net| {
-        let mut net = *net;
-        for h in corner_halfedges(face) {
-            net.set_first_inner(local_edge(h), 1, spokes[h].twist);
-        }
-        net
-    })
+fn set_twists(net: &mut SepticTriangle, face: FaceId, spokes: &HalfedgeMap<SpokeSolution>) {
+    for h in corner_halfedges(face) {
+        net.set_first_inner(local_edge(h), 1, spokes[h].twist);
+    }
 }
 
 fn set_rows(
-    mesh: &TriMesh,
-    nets: FaceMap<SepticTriangle>,
+    net: &mut SepticTriangle,
+    topology: &Topology,
+    face: FaceId,
     edges: &EdgeMap<EdgeRows>,
-) -> FaceMap<SepticTriangle> {
-    let topology = mesh.topology();
-    nets.map(|face, net| {
-        let mut net = *net;
-        for h in corner_halfedges(face) {
-            let edge = topology.edge(h);
-            let middle = if topology.canonical(edge) == h {
-                edges[edge].left
-            } else {
-                let [a, b, c] = edges[edge].right;
-                [c, b, a]
-            };
-            for (i, point) in middle.into_iter().enumerate() {
-                net.set_first_inner(local_edge(h), 2 + i, point);
-            }
+) {
+    for h in corner_halfedges(face) {
+        let edge = topology.edge(h);
+        let middle = if topology.canonical(edge) == h {
+            edges[edge].left
+        } else {
+            let [a, b, c] = edges[edge].right;
+            [c, b, a]
+        };
+        for (i, point) in middle.into_iter().enumerate() {
+            net.set_first_inner(local_edge(h), 2 + i, point);
         }
-        net
-    })
+    }
 }

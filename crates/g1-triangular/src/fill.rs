@@ -13,10 +13,11 @@ use bezier_core::{
 };
 
 use crate::earlier::{Earlier, Nothing};
-use crate::faces::{back_to_face, corner_halfedges, first_corner, is_inner};
+use crate::faces::{back_to_face, corner_halfedges, first_corner};
 use crate::network::CurveNetwork;
+use crate::normal_fit::point_to_plane;
 use crate::plan::{Fill, Plan};
-use crate::samples::{NetFit, SAMPLES, basis_column, parameters, point_to_plane};
+use crate::samples::{FreePoints, NetFit, Points, SAMPLES, parameters};
 
 /// Patches that join without gaps, not yet smoothly.
 #[derive(Clone, Debug)]
@@ -80,10 +81,10 @@ pub fn fill_reusing(
         let net = net.starting_at(back_to_face(first));
         PositionalPatch { net, failed_feet }
     });
-    PositionalPatches {
-        nets: filled.map(|_, patch| patch.net),
-        failed_feet: filled.map(|_, patch| patch.failed_feet),
-    }
+    let failed_feet = filled.map(|_, patch| patch.failed_feet);
+    // by value: the nets stay where they are in memory
+    let nets = filled.into_vec().into_iter().map(|patch| patch.net).collect();
+    PositionalPatches { nets: FaceMap::from_vec(nets), failed_feet }
 }
 
 /// The boundary of a face, from its lowest vertex.
@@ -111,7 +112,7 @@ impl Sides {
 }
 
 /// Feet of the samples of the flat triangle, and how many had none.
-fn samples(sides: &Sides, target: &dyn SurfaceTarget) -> ([DVec3; SAMPLES], usize) {
+fn samples(sides: &Sides, target: &dyn SurfaceTarget) -> (Points, usize) {
     let [a, b, c] = sides.quartic.map(|curve| curve.points[0]);
     let flat = parameters().map(|at| a * at.u + b * at.v + c * at.w);
     let mut feet: [Option<Foot>; SAMPLES] = [None; SAMPLES];
@@ -120,40 +121,37 @@ fn samples(sides: &Sides, target: &dyn SurfaceTarget) -> ([DVec3; SAMPLES], usiz
     (std::array::from_fn(|j| feet[j].map_or(flat[j], |foot| foot.point)), failed)
 }
 
-fn septic(sides: &Sides, samples: &[DVec3; SAMPLES]) -> SepticTriangle {
-    static FIT: LazyLock<NetFit<36>> = LazyLock::new(|| NetFit::new(is_inner));
+fn septic(sides: &Sides, samples: &Points) -> SepticTriangle {
+    static FIT: LazyLock<NetFit<36, 15>> = LazyLock::new(|| NetFit::new(inner_points(7)));
     let mut net = BezierTriangle::new([DVec3::ZERO; 36]);
     sides.bound(&mut net);
     FIT.apply(&mut net, samples);
     net
 }
 
-/// The inner points of a quartic net.
-const QUARTIC_INNER: [MultiIndex; 3] =
-    [MultiIndex::new(2, 1, 1), MultiIndex::new(1, 2, 1), MultiIndex::new(1, 1, 2)];
-/// Rounds of fitting along the normals, and their damping.
+/// Rounds of fitting quartics along the normals, and their damping.
 const QUARTIC_ROUNDS: usize = 2;
 const QUARTIC_DAMPING: f64 = 0.02 * 0.02;
 
-fn quartic(
-    sides: &Sides,
-    samples: &[DVec3; SAMPLES],
-    target: &dyn SurfaceTarget,
-) -> SepticTriangle {
-    static FIT: LazyLock<NetFit<15>> = LazyLock::new(|| NetFit::new(is_inner));
-    static COLUMNS: LazyLock<[[f64; SAMPLES]; 3]> =
-        LazyLock::new(|| QUARTIC_INNER.map(basis_column::<15>));
+fn quartic(sides: &Sides, samples: &Points, target: &dyn SurfaceTarget) -> SepticTriangle {
+    static FIT: LazyLock<NetFit<15, 3>> = LazyLock::new(|| NetFit::new(inner_points(4)));
+    static INNER: LazyLock<FreePoints<15>> = LazyLock::new(|| FreePoints::new(inner_points(4)));
     let mut net: QuarticTriangle = BezierTriangle::new([DVec3::ZERO; 15]);
     for (edge, curve) in LocalEdge::ALL.into_iter().zip(&sides.quartic) {
         net.set_boundary(edge, curve);
     }
     FIT.apply(&mut net, samples);
-    for _ in 0..QUARTIC_ROUNDS {
-        let moved = point_to_plane(&net, QUARTIC_INNER, &COLUMNS, QUARTIC_DAMPING, target);
-        net = moved.unwrap_or(net);
-    }
+    INNER.fit(&mut net, QUARTIC_ROUNDS, target, |columns, feet| {
+        point_to_plane(columns, feet, QUARTIC_DAMPING)
+    });
     let mut elevated = net.elevate_to::<36>();
     // the same bits in both faces of an edge, which elevation in another order would not give
     sides.bound(&mut elevated);
     elevated
+}
+
+/// The control points of a net that lie on no edge.
+fn inner_points<const COUNT: usize>(degree: usize) -> [MultiIndex; COUNT] {
+    let mut inner = MultiIndex::all(degree).filter(|m| m.i > 0 && m.j > 0 && m.k > 0);
+    std::array::from_fn(|_| inner.next().expect("invariant: as many inner points as asked for"))
 }

@@ -3,12 +3,13 @@
 use std::sync::LazyLock;
 
 use basemesh::SurfaceTarget;
-use bezier_core::glam::DVec3;
 use bezier_core::{MultiIndex, SepticTriangle, binomial};
-use nalgebra::{DMatrix, SMatrix, SVector};
+use nalgebra::DMatrix;
 
+use crate::normal_fit::{along_mean_normal, point_to_plane};
 use crate::plan::InnerPoints;
-use crate::samples::{SAMPLES, basis_column, feet, parameters, point_to_plane};
+use crate::point_map::PointMap;
+use crate::samples::FreePoints;
 
 /// The free control points, by exponents.
 const FREE: [MultiIndex; 3] =
@@ -20,39 +21,42 @@ const DAMPING: f64 = 1e-2;
 /// Weight of the part that is not of degree 5 against the part that is not of degree 6.
 const DEGREE_FIVE: f64 = 0.1;
 
-fn free_columns() -> &'static [[f64; SAMPLES]; 3] {
-    static COLUMNS: LazyLock<[[f64; SAMPLES]; 3]> = LazyLock::new(|| FREE.map(basis_column::<36>));
-    &COLUMNS
-}
-
 /// Chooses the free points of a patch; one whose samples cannot be projected keeps what it has.
 pub(crate) fn choose(
     net: &SepticTriangle,
     objective: InnerPoints,
     target: &dyn SurfaceTarget,
 ) -> SepticTriangle {
+    static FIT: LazyLock<FreePoints<36>> = LazyLock::new(|| FreePoints::new(FREE));
     match objective {
         InnerPoints::Keep => *net,
-        InnerPoints::PointToPlane => (0..ROUNDS).fold(*net, |net, _| {
-            point_to_plane(&net, FREE, free_columns(), DAMPING, target).unwrap_or(net)
-        }),
-        InnerPoints::LowDegree => (0..ROUNDS)
-            .fold(low_degree(net), |net, _| fit_along_mean_normal(&net, target).unwrap_or(net)),
+        InnerPoints::PointToPlane => {
+            let mut net = *net;
+            FIT.fit(&mut net, ROUNDS, target, |columns, feet| {
+                point_to_plane(columns, feet, DAMPING)
+            });
+            net
+        }
+        InnerPoints::LowDegree => {
+            let mut net = low_degree(net);
+            FIT.fit(&mut net, ROUNDS, target, along_mean_normal);
+            net
+        }
     }
 }
 
 /// The free points that make the patch as nearly of degree 6, and with less weight of degree 5, as
 /// the others allow, in the L2 norm over the triangle.
 fn low_degree(net: &SepticTriangle) -> SepticTriangle {
-    static WEIGHTS: LazyLock<[[f64; 36]; 3]> = LazyLock::new(low_degree_weights);
+    static FROM_OTHERS: LazyLock<PointMap<3>> = LazyLock::new(|| {
+        let weights = low_degree_weights();
+        PointMap::new(36, |slot, rank| weights[slot][rank])
+    });
     let origin = net.net()[0];
+    let combined = FROM_OTHERS.apply(&net.net().map(|p| p - origin));
     let mut chosen = *net;
-    for (m, weights) in FREE.into_iter().zip(WEIGHTS.iter()) {
-        chosen[m] = origin
-            + weights
-                .iter()
-                .zip(net.net())
-                .fold(DVec3::ZERO, |sum, (&w, &point)| sum + (point - origin) * w);
+    for (m, relative) in FREE.into_iter().zip(combined) {
+        chosen[m] = origin + relative;
     }
     chosen
 }
@@ -98,34 +102,10 @@ fn remainder(d: usize) -> DMatrix<f64> {
     &root - &image * (image.transpose() * &root)
 }
 
-/// Moves the free points along the mean normal of the samples' feet: three unknowns.
-fn fit_along_mean_normal(
-    net: &SepticTriangle,
-    target: &dyn SurfaceTarget,
-) -> Option<SepticTriangle> {
-    let points = parameters().map(|at| net.eval(at));
-    let feet = feet(target, &points)?;
-    let direction = feet.iter().map(|foot| foot.normal).sum::<DVec3>().try_normalize()?;
-    let columns = free_columns();
-    let mut matrix = SMatrix::<f64, 3, 3>::zeros();
-    let mut rhs = SVector::<f64, 3>::zeros();
-    for (j, (point, foot)) in points.iter().zip(&feet).enumerate() {
-        let lean = foot.normal.dot(direction);
-        let row = SVector::<f64, 3>::from_fn(|c, _| columns[c][j] * lean);
-        matrix += row * row.transpose();
-        rhs += row * (foot.point - point).dot(foot.normal);
-    }
-    let moves = matrix.cholesky()?.solve(&rhs);
-    let mut fitted = *net;
-    for (slot, m) in FREE.into_iter().enumerate() {
-        fitted[m] += direction * moves[slot];
-    }
-    Some(fitted)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bezier_core::glam::DVec3;
 
     /// Values printed by an independent implementation for the point (3, 2, 2).
     #[test]

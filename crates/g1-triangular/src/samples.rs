@@ -5,15 +5,24 @@ use std::sync::LazyLock;
 use basemesh::{Foot, SurfaceTarget};
 use bezier_core::glam::DVec3;
 use bezier_core::{Barycentric, BezierTriangle, MultiIndex};
-use nalgebra::{DMatrix, SMatrix, SVector};
+use nalgebra::DMatrix;
+
+use crate::point_map::PointMap;
 
 /// Divisions of the sample grid; 9 to 18 change the deviation by less than 3 %.
 const GRID: usize = 12;
 /// Strictly inner points of that grid.
 pub(crate) const SAMPLES: usize = 55;
 
-/// One foot per sample.
-pub(crate) type Feet = [Foot; SAMPLES];
+/// One point per sample.
+pub(crate) type Points = [DVec3; SAMPLES];
+/// Where the surface is near each sample.
+pub(crate) struct Feet {
+    /// Unit normals of the surface.
+    pub(crate) normals: Points,
+    /// Distances from the samples to the surface along these.
+    pub(crate) distances: [f64; SAMPLES],
+}
 
 /// The parameters of the samples.
 pub(crate) fn parameters() -> &'static [Barycentric; SAMPLES] {
@@ -25,110 +34,139 @@ pub(crate) fn parameters() -> &'static [Barycentric; SAMPLES] {
 }
 
 /// Feet of 55 points close to the surface; `None` if one is missing.
-pub(crate) fn feet(target: &dyn SurfaceTarget, points: &[DVec3; SAMPLES]) -> Option<Feet> {
+fn feet(target: &dyn SurfaceTarget, points: &Points) -> Option<Feet> {
     let mut found: [Option<Foot>; SAMPLES] = [None; SAMPLES];
     target.linear_feet(points, &mut found);
-    let mut feet = [Foot { point: DVec3::ZERO, normal: DVec3::ZERO }; SAMPLES];
-    for (slot, foot) in feet.iter_mut().zip(found) {
-        *slot = foot?;
+    let mut feet = Feet { normals: [DVec3::ZERO; SAMPLES], distances: [0.0; SAMPLES] };
+    for (j, foot) in found.iter().enumerate() {
+        let Foot { point, normal } = foot.as_ref()?;
+        feet.normals[j] = *normal;
+        feet.distances[j] = (*point - points[j]).dot(*normal);
     }
     Some(feet)
 }
 
 /// Values of one basis polynomial of the net at all samples.
-pub(crate) fn basis_column<const P: usize>(m: MultiIndex) -> [f64; SAMPLES] {
+fn basis_column<const P: usize>(m: MultiIndex) -> [f64; SAMPLES] {
     let mut unit = BezierTriangle::<f64, P>::new([0.0; P]);
     unit[m] = 1.0;
     parameters().map(|at| unit.eval(at))
 }
 
-/// Fits some control points of a net to samples, the others being given: constant matrices, made
+/// Fits `FREE` control points of a net to samples, the others being given: constant matrices, made
 /// once.
-pub(crate) struct NetFit<const P: usize> {
-    free: Vec<usize>,
-    fixed: Vec<usize>,
-    from_samples: Vec<[f64; SAMPLES]>,
-    from_fixed: Vec<Vec<f64>>,
+pub(crate) struct NetFit<const P: usize, const FREE: usize> {
+    free: [MultiIndex; FREE],
+    from_samples: PointMap<FREE>,
+    /// From the whole net; the free points have no weight.
+    from_given: PointMap<FREE>,
 }
 
-impl<const P: usize> NetFit<P> {
-    /// The fit of the control points for which `is_free` holds.
-    pub(crate) fn new(is_free: impl Fn(MultiIndex) -> bool) -> Self {
+impl<const P: usize, const FREE: usize> NetFit<P, FREE> {
+    /// The fit of these control points.
+    pub(crate) fn new(free: [MultiIndex; FREE]) -> Self {
         let degree = BezierTriangle::<f64, P>::DEGREE;
-        let (free, fixed): (Vec<MultiIndex>, Vec<MultiIndex>) =
-            MultiIndex::all(degree).partition(|&m| is_free(m));
-        let basis = |indices: &[MultiIndex]| {
-            let columns: Vec<[f64; SAMPLES]> =
-                indices.iter().map(|&m| basis_column::<P>(m)).collect();
-            DMatrix::from_fn(SAMPLES, indices.len(), |row, column| columns[column][row])
-        };
+        let basis: Vec<[f64; SAMPLES]> = MultiIndex::all(degree).map(basis_column::<P>).collect();
+        let free_basis =
+            DMatrix::from_fn(SAMPLES, FREE, |sample, slot| basis[free[slot].rank()][sample]);
+        let given_basis = DMatrix::from_fn(SAMPLES, P, |sample, rank| {
+            let given = free.iter().all(|m| m.rank() != rank);
+            if given { basis[rank][sample] } else { 0.0 }
+        });
         // full rank and well conditioned: QR without a cut-off
-        let qr = basis(&free).qr();
+        let qr = free_basis.qr();
         let pseudo_inverse = qr
             .r()
             .solve_upper_triangular(&qr.q().transpose())
             .expect("invariant: 55 samples determine the free control points");
-        let from_fixed = -(&pseudo_inverse * basis(&fixed));
+        let from_given = &pseudo_inverse * given_basis;
         Self {
-            free: free.iter().map(|m| m.rank()).collect(),
-            fixed: fixed.iter().map(|m| m.rank()).collect(),
-            from_samples: pseudo_inverse
-                .row_iter()
-                .map(|row| std::array::from_fn(|j| row[j]))
-                .collect(),
-            from_fixed: from_fixed.row_iter().map(|row| row.iter().copied().collect()).collect(),
+            free,
+            from_samples: PointMap::new(SAMPLES, |slot, sample| pseudo_inverse[(slot, sample)]),
+            from_given: PointMap::new(P, |slot, rank| -from_given[(slot, rank)]),
         }
     }
 
     /// Sets the free control points so that the patch is closest to `samples` in the sense of least
     /// squares.
-    pub(crate) fn apply(&self, net: &mut BezierTriangle<DVec3, P>, samples: &[DVec3; SAMPLES]) {
+    pub(crate) fn apply(&self, net: &mut BezierTriangle<DVec3, P>, samples: &Points) {
         // a local origin keeps the large coordinates of a far-away face out of the sums
         let origin = net.net()[0];
-        for ((&rank, from_samples), from_fixed) in
-            self.free.iter().zip(&self.from_samples).zip(&self.from_fixed)
-        {
-            let sampled = weighted_sum(from_samples, samples, origin);
-            let given: DVec3 = from_fixed
-                .iter()
-                .zip(&self.fixed)
-                .fold(DVec3::ZERO, |sum, (&w, &f)| sum + (net.net()[f] - origin) * w);
-            net.net_mut()[rank] = origin + sampled + given;
+        let sampled = self.from_samples.apply(&samples.map(|p| p - origin));
+        let given = self.from_given.apply(&net.net().map(|p| p - origin));
+        for (slot, &m) in self.free.iter().enumerate() {
+            net[m] = origin + sampled[slot] + given[slot];
         }
     }
 }
 
-fn weighted_sum(weights: &[f64; SAMPLES], points: &[DVec3; SAMPLES], origin: DVec3) -> DVec3 {
-    weights.iter().zip(points).fold(DVec3::ZERO, |sum, (&w, &p)| sum + (p - origin) * w)
-}
-
-/// Moves three control points of a net so that it comes closer to the surface along the surface's
-/// normals: one round of damped least squares over nine unknowns, `damping` being a fraction of the
-/// mean diagonal of the normal equations, which the damping keeps well conditioned. `None` where a
-/// foot is missing.
-pub(crate) fn point_to_plane<const P: usize>(
-    net: &BezierTriangle<DVec3, P>,
+/// Moves three control points of a net in rounds, each towards new feet of the samples.
+pub(crate) struct FreePoints<const P: usize> {
     free: [MultiIndex; 3],
-    columns: &[[f64; SAMPLES]; 3],
-    damping: f64,
-    target: &dyn SurfaceTarget,
-) -> Option<BezierTriangle<DVec3, P>> {
-    let points = parameters().map(|at| net.eval(at));
-    let feet = feet(target, &points)?;
-    let mut matrix = SMatrix::<f64, 9, 9>::zeros();
-    let mut rhs = SVector::<f64, 9>::zeros();
-    for (j, (point, foot)) in points.iter().zip(&feet).enumerate() {
-        let row = SVector::<f64, 9>::from_fn(|c, _| columns[c / 3][j] * foot.normal[c % 3]);
-        matrix.ger(1.0, &row, &row, 1.0);
-        rhs.axpy((foot.point - point).dot(foot.normal), &row, 1.0);
-    }
-    let ridge = damping * matrix.trace() / 9.0;
-    let displacement = (matrix + SMatrix::<f64, 9, 9>::identity() * ridge).cholesky()?.solve(&rhs);
-    let mut moved = *net;
-    for (slot, m) in free.into_iter().enumerate() {
-        for axis in 0..3 {
-            moved[m][axis] += displacement[3 * slot + axis];
+    basis: PointMap<SAMPLES>,
+    columns: Columns,
+}
+
+/// Motion of each sample when a free point moves by one.
+pub(crate) struct Columns {
+    pub(crate) values: [[f64; SAMPLES]; 3],
+    /// Sums over the samples with these weights, and with their products for the [`PAIRS`].
+    pub(crate) sums: PointMap<3>,
+    pub(crate) pair_sums: PointMap<6>,
+}
+
+/// Pairs of three things.
+pub(crate) const PAIRS: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
+
+impl Columns {
+    fn new(values: [[f64; SAMPLES]; 3]) -> Self {
+        let product = |pair: usize, sample: usize| {
+            let [a, b] = PAIRS[pair];
+            values[a][sample] * values[b][sample]
+        };
+        Self {
+            sums: PointMap::new(SAMPLES, |slot, sample| values[slot][sample]),
+            pair_sums: PointMap::new(SAMPLES, product),
+            values,
         }
     }
-    Some(moved)
+}
+
+impl<const P: usize> FreePoints<P> {
+    /// These control points.
+    pub(crate) fn new(free: [MultiIndex; 3]) -> Self {
+        let degree = BezierTriangle::<f64, P>::DEGREE;
+        let basis: Vec<[f64; SAMPLES]> = MultiIndex::all(degree).map(basis_column::<P>).collect();
+        Self {
+            free,
+            basis: PointMap::new(P, |sample, rank| basis[rank][sample]),
+            columns: Columns::new(free.map(basis_column::<P>)),
+        }
+    }
+
+    /// Moves the free points `rounds` times by the vectors that `motion` finds for the columns and the
+    /// feet; ends early where a foot or the motion is missing.
+    pub(crate) fn fit(
+        &self,
+        net: &mut BezierTriangle<DVec3, P>,
+        rounds: usize,
+        target: &dyn SurfaceTarget,
+        motion: impl Fn(&Columns, &Feet) -> Option<[DVec3; 3]>,
+    ) {
+        let mut points = self.basis.apply(net.net());
+        for round in 0..rounds {
+            let moved = feet(target, &points);
+            let moved = moved.and_then(|feet| motion(&self.columns, &feet));
+            let Some([a, b, c]) = moved else { return };
+            for (&m, step) in self.free.iter().zip([a, b, c]) {
+                net[m] += step;
+            }
+            if round + 1 < rounds {
+                let [ca, cb, cc] = &self.columns.values;
+                for (j, point) in points.iter_mut().enumerate() {
+                    *point += a * ca[j] + b * cb[j] + c * cc[j];
+                }
+            }
+        }
+    }
 }

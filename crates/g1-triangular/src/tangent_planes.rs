@@ -8,18 +8,21 @@
 //! are proportional to the turning `θ` of the normals along the edge, because that is how strongly
 //! tangential motion acts on it; with fixed weights they would win as the edge shrinks.
 
+mod basis;
+
 use basemesh::{Foot, SurfaceTarget};
 use bezier_core::glam::DVec3;
-use bezier_core::{Turning, bernstein, binomial};
+use bezier_core::{Turning, damped_least_squares};
 use nalgebra::{SMatrix, SVector};
+
+use basis::{CUBICS, LEGENDRE, SAMPLES, SEXTICS, parameter};
 
 use crate::edge_system::{EdgeRows, EdgeSystem};
 
-/// Parameters at which rows and surface are compared: midpoints of nine sections.
-const SAMPLES: usize = 9;
-/// Weights of the Legendre coefficients of degree 5 and 6 of the rows, over `θ`.
-const DEGREE_FIVE: f64 = 0.1;
-const DEGREE_SIX: f64 = 0.3;
+/// Parameters between which the turning of the normals is taken: quarters.
+const QUARTERS: usize = 5;
+/// Weights of the Legendre coefficients of the high degrees of the rows, over `θ`.
+const HIGH_DEGREE_WEIGHTS: [f64; 2] = [0.1, 0.3];
 /// Weight of tangential motion away from the start, over `θ`.
 const MOTION: f64 = 1e-3;
 /// Weight that determines what nothing else does.
@@ -29,9 +32,10 @@ const MIN_TURNING: f64 = 1e-3;
 
 /// Free directions: two null vectors for each axis, and `ν`.
 const UNKNOWNS: usize = 7;
-/// Two normal residuals a sample; two degrees, sides and tangents; six points and two tangents; one
-/// for each unknown.
-const EQUATIONS: usize = 2 * SAMPLES + 8 + 12 + UNKNOWNS;
+const NU: usize = 6;
+/// Normal residuals of the samples and high degrees in two tangent directions, for both sides; motion
+/// by `ν`.
+const EQUATIONS: usize = 2 * (SAMPLES + 4) + 1;
 
 /// The two rows of an edge, as `(point index, place among the six unknown points)` per side.
 const SIDES: [[usize; 3]; 2] = [[0, 2, 4], [1, 3, 5]];
@@ -45,15 +49,18 @@ pub(crate) fn solve(system: &EdgeSystem, target: &dyn SurfaceTarget) -> Option<E
     (nu.is_finite() && x.iter().all(|v| v.is_finite())).then(|| system.solution(&(x * length), nu))
 }
 
+/// Six points, one a row.
+type SixPoints = SMatrix<f64, 6, 3>;
+
 /// One edge in units of its chord, with its start as the origin.
 struct Fit<'a> {
     system: &'a EdgeSystem,
     length: f64,
-    start: SMatrix<f64, 6, 3>,
-    particular: SMatrix<f64, 6, 3>,
+    start: SixPoints,
+    particular: SixPoints,
     /// Motion of the six points per unit of `ν`.
-    response: SMatrix<f64, 6, 3>,
-    null_space: SMatrix<f64, 6, 2>,
+    response: SixPoints,
+    null_space: [SVector<f64, 6>; 2],
     theta: f64,
     /// Two tangent directions of the mean normal, and that normal.
     axes: [DVec3; 3],
@@ -63,17 +70,7 @@ struct Fit<'a> {
 
 impl<'a> Fit<'a> {
     fn new(system: &'a EdgeSystem, target: &dyn SurfaceTarget, length: f64) -> Option<Self> {
-        let at = |t: f64| system.curve.eval(t);
-        let points: [DVec3; SAMPLES + 5] = std::array::from_fn(|j| {
-            at(if j < SAMPLES { parameter(j) } else { (j - SAMPLES) as f64 / 4.0 })
-        });
-        let mut feet: [Option<Foot>; SAMPLES + 5] = [None; SAMPLES + 5];
-        target.feet(&points, &mut feet);
-        let mut normals = [DVec3::ZERO; SAMPLES + 5];
-        for (slot, foot) in normals.iter_mut().zip(feet) {
-            *slot = foot?.normal;
-        }
-        let Turning { angle, mean } = Turning::of(&normals[SAMPLES..])?;
+        let (normals, Turning { angle, mean }) = normals(system, target)?;
         let (u, v) = mean.any_orthonormal_pair();
 
         let a = system.matrix();
@@ -91,21 +88,8 @@ impl<'a> Fit<'a> {
             null_space: null_space(&a),
             theta: angle.max(MIN_TURNING),
             axes: [u, v, mean],
-            normals: std::array::from_fn(|j| normals[j]),
+            normals,
         })
-    }
-
-    /// Motion of one of the six points when one of the unknowns grows by one.
-    fn direction(&self, point: usize, unknown: usize) -> DVec3 {
-        if unknown == UNKNOWNS - 1 {
-            DVec3::from_array(std::array::from_fn(|axis| self.response[(point, axis)]))
-        } else {
-            self.axes[unknown % 3] * self.null_space[(point, unknown / 3)]
-        }
-    }
-
-    fn point(points: &SMatrix<f64, 6, 3>, index: usize) -> DVec3 {
-        DVec3::from_array(std::array::from_fn(|axis| points[(index, axis)]))
     }
 
     /// The seven points of the row of one side at the particular solution.
@@ -114,32 +98,32 @@ impl<'a> Fit<'a> {
         let origin = self.system.curve.points[0];
         let mut row = known.map(|p| (p - origin) / self.length);
         for (i, &place) in SIDES[side].iter().enumerate() {
-            row[2 + i] = Self::point(&self.particular, place);
+            row[2 + i] = point(&self.particular, place);
         }
         row
     }
 
-    fn least_squares(&self) -> Option<SVector<f64, UNKNOWNS>> {
+    fn least_squares(&self) -> Option<[f64; UNKNOWNS]> {
         let mut equations = Equations::default();
         for side in [0, 1] {
             let row = self.row(side);
             self.normal_residuals(side, &row, &mut equations);
             self.high_degrees(side, &row, &mut equations);
         }
-        for place in 0..6 {
-            let moved = Self::point(&self.particular, place) - Self::point(&self.start, place);
-            for tangent in &self.axes[..2] {
-                let weight = MOTION * self.theta;
-                equations.push(
-                    std::array::from_fn(|c| weight * self.direction(place, c).dot(*tangent)),
-                    -weight * moved.dot(*tangent),
-                );
-            }
-        }
-        for unknown in 0..UNKNOWNS {
-            equations.push(std::array::from_fn(|c| if c == unknown { FLOOR } else { 0.0 }), 0.0);
-        }
-        equations.solve()
+        let damping = self.motion(&mut equations);
+        debug_assert_eq!(equations.count, EQUATIONS, "every equation is collected");
+        damped_least_squares(&mut equations.columns, &mut equations.rhs, &damping)
+    }
+
+    /// Motion of a weighted sum of the three points of one side when the unknowns grow by one: along
+    /// each axis for the two null vectors, and for `ν`.
+    fn side_motion(&self, side: usize, weights: [f64; 3]) -> ([f64; 2], DVec3) {
+        let places = SIDES[side];
+        let sum =
+            |values: [f64; 3]| -> f64 { values.iter().zip(weights).map(|(x, w)| x * w).sum() };
+        let along = [0, 1].map(|k| sum(places.map(|place| self.null_space[k][place])));
+        let by_nu = [0, 1, 2].map(|axis| sum(places.map(|place| self.response[(place, axis)])));
+        (along, DVec3::from_array(by_nu))
     }
 
     /// `(row(t) - (q_b(t) + q_t(t)) / 2)·n(t) = 0` at the samples.
@@ -149,131 +133,149 @@ impl<'a> Fit<'a> {
     fn normal_residuals(&self, side: usize, row: &[DVec3; 7], equations: &mut Equations) {
         let origin = self.system.curve.points[0];
         let q = self.system.curve.points.map(|q| (q - origin) / self.length);
+        let middles: [DVec3; 4] = std::array::from_fn(|i| (q[i] + q[i + 1]) * 0.5);
         let weight = 1.0 / (SAMPLES as f64).sqrt();
         for (j, normal) in self.normals.iter().enumerate() {
-            let sextic = bernstein::<7>(parameter(j));
-            let cubic = bernstein::<4>(parameter(j));
-            let on_row: DVec3 = row.iter().zip(sextic).map(|(p, b)| *p * b).sum();
-            let on_curve: DVec3 =
-                q.windows(2).zip(cubic).map(|(q, b)| (q[0] + q[1]) * (0.5 * b)).sum();
-            equations.push(
-                std::array::from_fn(|c| {
-                    let motion = |i: usize| self.direction(SIDES[side][i], c) * sextic[2 + i];
-                    weight * (motion(0) + motion(1) + motion(2)).dot(*normal)
-                }),
-                -weight * (on_row - on_curve).dot(*normal),
-            );
+            let sextic = SEXTICS[j];
+            let residual = combined(row, &sextic) - combined(&middles, &CUBICS[j]);
+            let (along, by_nu) = self.side_motion(side, [sextic[2], sextic[3], sextic[4]]);
+            let leans = self.axes.map(|axis| weight * axis.dot(*normal));
+            let mut equation = [0.0; UNKNOWNS];
+            for (unknown, entry) in equation[..NU].iter_mut().enumerate() {
+                *entry = leans[unknown % 3] * along[unknown / 3];
+            }
+            equation[NU] = weight * by_nu.dot(*normal);
+            equations.push(equation, -weight * residual.dot(*normal));
         }
     }
 
     /// Tangential Legendre coefficients of degree 5 and 6 of the row to zero.
     fn high_degrees(&self, side: usize, row: &[DVec3; 7], equations: &mut Equations) {
-        for (degree, weight) in [(5, DEGREE_FIVE), (6, DEGREE_SIX)] {
-            let coefficients = legendre_coefficients(degree);
+        for (weight, coefficients) in HIGH_DEGREE_WEIGHTS.iter().zip(LEGENDRE.iter()) {
             let weight = weight * self.theta;
-            for tangent in &self.axes[..2] {
-                let value: f64 =
-                    row.iter().zip(coefficients).map(|(p, c)| p.dot(*tangent) * c).sum();
-                equations.push(
-                    std::array::from_fn(|c| {
-                        let motion = |i: usize| {
-                            self.direction(SIDES[side][i], c).dot(*tangent) * coefficients[2 + i]
-                        };
-                        weight * (motion(0) + motion(1) + motion(2))
-                    }),
-                    -weight * value,
-                );
+            let value = combined(row, coefficients);
+            let (along, by_nu) =
+                self.side_motion(side, [coefficients[2], coefficients[3], coefficients[4]]);
+            for (axis, tangent) in self.axes[..2].iter().enumerate() {
+                let mut equation = [0.0; UNKNOWNS];
+                equation[axis] = weight * along[0];
+                equation[3 + axis] = weight * along[1];
+                equation[NU] = weight * by_nu.dot(*tangent);
+                equations.push(equation, -weight * value.dot(*tangent));
             }
         }
     }
 
-    fn solution(&self, coordinates: &SVector<f64, UNKNOWNS>) -> (SMatrix<f64, 6, 3>, f64) {
-        let x = SMatrix::<f64, 6, 3>::from_fn(|place, axis| {
-            let moved: DVec3 =
-                (0..UNKNOWNS).map(|c| self.direction(place, c) * coordinates[c]).sum();
-            self.particular[(place, axis)] + moved[axis]
+    /// Tangential motion of the six points, and the unknowns themselves, to zero.
+    ///
+    /// The null vectors are orthonormal, and both the motion by `ν` and that from the start to the
+    /// particular solution are orthogonal to them: the twelve equations of the motion come down to a
+    /// damping of each tangential unknown and one equation for `ν`.
+    fn motion(&self, equations: &mut Equations) -> [f64; UNKNOWNS] {
+        let weight = MOTION * self.theta;
+        let moved = self.particular - self.start;
+        let (mut square, mut product) = (0.0, 0.0);
+        for place in 0..6 {
+            let [by_nu, moved] = [&self.response, &moved].map(|motion| point(motion, place));
+            for tangent in &self.axes[..2] {
+                square += by_nu.dot(*tangent).powi(2);
+                product += by_nu.dot(*tangent) * moved.dot(*tangent);
+            }
+        }
+        let size = square.sqrt();
+        let mut equation = [0.0; UNKNOWNS];
+        equation[NU] = weight * size;
+        equations.push(equation, if size > 0.0 { -weight * product / size } else { 0.0 });
+
+        let tangential = weight.hypot(FLOOR);
+        [tangential, tangential, FLOOR, tangential, tangential, FLOOR, FLOOR]
+    }
+
+    fn solution(&self, coordinates: &[f64; UNKNOWNS]) -> (SixPoints, f64) {
+        let nu = coordinates[NU];
+        let [first, second] = [0, 3].map(|c| {
+            let [u, v, n] = self.axes;
+            u * coordinates[c] + v * coordinates[c + 1] + n * coordinates[c + 2]
         });
-        (x, coordinates[UNKNOWNS - 1])
+        let x = SixPoints::from_fn(|place, axis| {
+            self.particular[(place, axis)]
+                + self.response[(place, axis)] * nu
+                + self.null_space[0][place] * first[axis]
+                + self.null_space[1][place] * second[axis]
+        });
+        (x, nu)
     }
 }
 
-fn parameter(j: usize) -> f64 {
-    (j as f64 + 0.5) / SAMPLES as f64
+/// Normals of the surface at the samples of the boundary curve, and their turning along it.
+fn normals(system: &EdgeSystem, target: &dyn SurfaceTarget) -> Option<([DVec3; SAMPLES], Turning)> {
+    let points: [DVec3; SAMPLES + QUARTERS] = std::array::from_fn(|j| {
+        let quarter = |j: usize| j as f64 / (QUARTERS - 1) as f64;
+        system.curve.eval(if j < SAMPLES { parameter(j) } else { quarter(j - SAMPLES) })
+    });
+    let mut feet: [Option<Foot>; SAMPLES + QUARTERS] = [None; SAMPLES + QUARTERS];
+    target.feet(&points, &mut feet);
+    let mut normals = [DVec3::ZERO; SAMPLES + QUARTERS];
+    for (slot, foot) in normals.iter_mut().zip(feet) {
+        *slot = foot?.normal;
+    }
+    let turning = Turning::of(&normals[SAMPLES..])?;
+    Some((std::array::from_fn(|j| normals[j]), turning))
 }
 
-/// Weights that turn the Bernstein coefficients of a sextic into its coefficient of degree `l` in
-/// the orthonormal Legendre polynomials of [0, 1]:
-/// `√(2l+1) Σ_i (-1)^(l+i) C(l,i)² C(6,j) / (C(l+6, i+j) (l+7))`.
-fn legendre_coefficients(l: usize) -> [f64; 7] {
-    let scale = ((2 * l + 1) as f64).sqrt() / (l + 7) as f64;
-    std::array::from_fn(|j| {
-        let sum: f64 = (0..=l)
-            .map(|i| {
-                let sign = if (l + i).is_multiple_of(2) { 1.0 } else { -1.0 };
-                sign * binomial(l, i).powi(2) * binomial(6, j) / binomial(l + 6, i + j)
-            })
-            .sum();
-        scale * sum
+fn combined<const P: usize>(points: &[DVec3; P], weights: &[f64; P]) -> DVec3 {
+    points.iter().zip(weights).fold(DVec3::ZERO, |sum, (&point, &weight)| sum + point * weight)
+}
+
+fn point(points: &SixPoints, index: usize) -> DVec3 {
+    DVec3::new(points[(index, 0)], points[(index, 1)], points[(index, 2)])
+}
+
+/// Two orthonormal vectors that a 4×6 matrix of full rank maps to zero: the last two axes, taken
+/// back through the reflections of its QR decomposition.
+fn null_space(a: &SMatrix<f64, 4, 6>) -> [SVector<f64, 6>; 2] {
+    let mut rows = a.transpose();
+    let mut reflections = [(SVector::zeros(), 0.0); 4];
+    for k in 0..4 {
+        let mut v: SVector<f64, 6> = rows.column(k).into_owned();
+        v.rows_mut(0, k).fill(0.0);
+        v[k] += v.norm().copysign(v[k]);
+        let scale = 2.0 / v.norm_squared();
+        for later in k + 1..4 {
+            let share = scale * v.dot(&rows.column(later));
+            rows.column_mut(later).axpy(-share, &v, 1.0);
+        }
+        reflections[k] = (v, scale);
+    }
+    [4, 5].map(|axis| {
+        let mut x = SVector::zeros();
+        x[axis] = 1.0;
+        for (v, scale) in reflections.iter().rev() {
+            x -= v * (scale * v.dot(&x));
+        }
+        x
     })
-}
-
-/// Two orthonormal vectors that a 4×6 matrix of full rank maps to zero.
-fn null_space(a: &SMatrix<f64, 4, 6>) -> SMatrix<f64, 6, 2> {
-    let mut padded = SMatrix::<f64, 6, 6>::zeros();
-    padded.fixed_columns_mut::<4>(0).copy_from(&a.transpose());
-    padded.qr().q().fixed_columns::<2>(4).into_owned()
 }
 
 /// A least-squares problem collected row by row.
 struct Equations {
-    matrix: SMatrix<f64, EQUATIONS, UNKNOWNS>,
-    rhs: SVector<f64, EQUATIONS>,
+    columns: [[f64; EQUATIONS]; UNKNOWNS],
+    rhs: [f64; EQUATIONS],
     count: usize,
 }
 
 impl Default for Equations {
     fn default() -> Self {
-        Self { matrix: SMatrix::zeros(), rhs: SVector::zeros(), count: 0 }
+        Self { columns: [[0.0; EQUATIONS]; UNKNOWNS], rhs: [0.0; EQUATIONS], count: 0 }
     }
 }
 
 impl Equations {
     fn push(&mut self, row: [f64; UNKNOWNS], value: f64) {
-        for (c, entry) in row.into_iter().enumerate() {
-            self.matrix[(self.count, c)] = entry;
+        for (column, entry) in self.columns.iter_mut().zip(row) {
+            column[self.count] = entry;
         }
         self.rhs[self.count] = value;
         self.count += 1;
-    }
-
-    fn solve(mut self) -> Option<SVector<f64, UNKNOWNS>> {
-        debug_assert_eq!(self.count, EQUATIONS, "every equation is collected");
-        let qr = self.matrix.qr();
-        qr.q_tr_mul(&mut self.rhs);
-        let rhs = self.rhs.fixed_rows::<UNKNOWNS>(0).into_owned();
-        qr.r().solve_upper_triangular(&rhs).filter(|x| x.iter().all(|v| v.is_finite()))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn legendre_coefficients_see_only_their_degree() {
-        // t^k in Bernstein form of degree 6 has the coefficients C(i, k) / C(6, k)
-        let power =
-            |k: usize| -> [f64; 7] { std::array::from_fn(|i| binomial(i, k) / binomial(6, k)) };
-        let apply = |l: usize, k: usize| -> f64 {
-            legendre_coefficients(l).iter().zip(power(k)).map(|(c, b)| c * b).sum()
-        };
-        for (l, k) in [(5, 0), (5, 3), (5, 4), (6, 0), (6, 4), (6, 5)] {
-            assert!(apply(l, k).abs() <= 1e-15, "degree {l} of t^{k}: {:e}", apply(l, k));
-        }
-        // leading coefficients of the shifted Legendre polynomials: C(2l, l)
-        for (l, leading) in [(5, 252.0), (6, 924.0)] {
-            let expected = 1.0 / (leading * ((2 * l + 1) as f64).sqrt());
-            assert!((apply(l, l) / expected - 1.0).abs() <= 1e-10, "degree {l}");
-        }
     }
 }

@@ -1,11 +1,10 @@
 //! The seven unknowns of a curve whose end tangents may also turn in their tangent planes.
 
+use bezier_core::QuarticCurve;
 use bezier_core::glam::DVec3;
-use bezier_core::{QuarticCurve, bernstein};
-use nalgebra::{SMatrix, SVector};
 
-use crate::frame::Frame;
-use crate::problem::{EdgeProblem, End};
+use crate::gradients::{Vector, smallest_solution};
+use crate::problem::EdgeProblem;
 
 /// Where Newton steps towards the conditions end, in chord lengths.
 const CONDITIONS_HOLD: f64 = 1e-15;
@@ -13,15 +12,7 @@ const CONDITIONS_HOLD: f64 = 1e-15;
 /// `(a0, a1, q2, b0, b1)` in chord lengths: `q1 = q0 + a0 t0 + b0 s0`, `q3 = q4 + a1 t1 + b1 s1`, with
 /// `t` the end tangents of the problem and `s = N × t`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FreeTangents(pub(crate) SVector<f64, 7>);
-
-fn sideways(end: &End) -> DVec3 {
-    end.normal.cross(end.tangent)
-}
-
-fn middle(x: &SVector<f64, 7>) -> DVec3 {
-    DVec3::new(x[2], x[3], x[4])
-}
+pub(crate) struct FreeTangents(pub(crate) Vector);
 
 impl FreeTangents {
     /// The unknowns of a curve between the end points of the problem.
@@ -31,14 +22,14 @@ impl FreeTangents {
         let first = (q[1] - q[0]) / problem.chord;
         let last = (q[3] - q[4]) / problem.chord;
         let q2 = (q[2] - q[0]) / problem.chord;
-        Self(SVector::from([
+        Self(Vector::from([
             first.dot(start.tangent),
             last.dot(end.tangent),
             q2.x,
             q2.y,
             q2.z,
-            first.dot(sideways(start)),
-            last.dot(sideways(end)),
+            first.dot(start.sideways),
+            last.dot(end.sideways),
         ]))
     }
 
@@ -48,48 +39,52 @@ impl FreeTangents {
     }
 
     /// End tangent as a vector, in chord lengths.
-    fn tangent(&self, problem: &EdgeProblem, i: usize) -> DVec3 {
+    pub(crate) fn tangent(&self, problem: &EdgeProblem, i: usize) -> DVec3 {
         let (length, aside) = self.end_tangent(i);
-        problem.ends[i].tangent * length + sideways(&problem.ends[i]) * aside
+        problem.ends[i].tangent * length + problem.ends[i].sideways * aside
+    }
+
+    /// The middle control point, in chord lengths from the start.
+    pub(crate) fn middle(&self) -> DVec3 {
+        DVec3::new(self.0[2], self.0[3], self.0[4])
     }
 
     /// The curve in world coordinates.
     pub(crate) fn curve(&self, problem: &EdgeProblem) -> QuarticCurve {
-        problem.curve_with(self.tangent(problem, 0), middle(&self.0), self.tangent(problem, 1))
+        problem.curve_with(self.tangent(problem, 0), self.middle(), self.tangent(problem, 1))
     }
 
     /// The curvature conditions `4 II(q1 - q0, q1 - q0) - 3 (q2 - q0)·N`, and the same at the end.
-    pub(crate) fn conditions(&self, problem: &EdgeProblem) -> SVector<f64, 2> {
-        SVector::from_fn(|i, _| {
+    pub(crate) fn conditions(&self, problem: &EdgeProblem) -> [f64; 2] {
+        [0, 1].map(|i| {
             let end = &problem.ends[i];
-            let tangent = self.tangent(problem, i);
-            4.0 * problem.second_form(i, tangent, tangent)
-                - 3.0 * (middle(&self.0) - end.point).dot(end.normal)
+            let (length, aside) = self.end_tangent(i);
+            4.0 * end.second_form([length, aside], [length, aside])
+                - 3.0 * (self.middle() - end.point).dot(end.normal)
         })
     }
 
-    /// Their gradients, one column each; without `sideways`, those of `b0` and `b1` are zero.
+    /// Their gradients; without `sideways`, those of `b0` and `b1` are zero.
     pub(crate) fn condition_gradients(
         &self,
         problem: &EdgeProblem,
         with_sideways: bool,
-    ) -> SMatrix<f64, 7, 2> {
-        let mut gradients = SMatrix::<f64, 7, 2>::zeros();
-        for (i, end) in problem.ends.iter().enumerate() {
-            let tangent = self.tangent(problem, i);
-            gradients[(i, i)] = 8.0 * problem.second_form(i, tangent, end.tangent);
+    ) -> [Vector; 2] {
+        [0, 1].map(|i| {
+            let end = &problem.ends[i];
+            let (length, aside) = self.end_tangent(i);
+            let mut gradient = Vector::zeros();
+            gradient[i] = 8.0 * end.second_form([length, aside], [1.0, 0.0]);
             for axis in 0..3 {
-                gradients[(2 + axis, i)] = -3.0 * end.normal[axis];
+                gradient[2 + axis] = -3.0 * end.normal[axis];
             }
             if with_sideways {
-                gradients[(5 + i, i)] = 8.0 * problem.second_form(i, tangent, sideways(end));
+                gradient[5 + i] = 8.0 * end.second_form([length, aside], [0.0, 1.0]);
             }
-        }
-        gradients
+            gradient
+        })
     }
-}
 
-impl FreeTangents {
     /// Newton steps of smallest norm towards the curvature conditions, until they hold to round-off
     /// or `steps` have been taken.
     pub(crate) fn towards_conditions(
@@ -100,19 +95,17 @@ impl FreeTangents {
     ) -> Self {
         for _ in 0..steps {
             let defect = self.conditions(problem);
-            if defect.norm() < CONDITIONS_HOLD {
+            if norm(defect) < CONDITIONS_HOLD {
                 break;
             }
             let gradients = self.condition_gradients(problem, with_sideways);
-            self.0 -= Frame::new(&gradients).smallest_solution(&defect);
+            self.0 -= smallest_solution(&gradients, defect);
         }
         self
     }
 }
 
-/// Motion of the curve point at `t`, in chord lengths, when the unknowns move by `direction`.
-pub(crate) fn motion(problem: &EdgeProblem, direction: &SVector<f64, 7>, t: f64) -> DVec3 {
-    let [_, b1, b2, b3, _] = bernstein::<5>(t);
-    let step = FreeTangents(*direction);
-    step.tangent(problem, 0) * b1 + middle(direction) * b2 + step.tangent(problem, 1) * b3
+/// Length of the vector of both conditions.
+pub(crate) fn norm([a, b]: [f64; 2]) -> f64 {
+    (a * a + b * b).sqrt()
 }

@@ -47,7 +47,7 @@ pub(crate) fn step(
 
 fn solve(matrix: SMatrix<f64, 7, 7>, rhs: &SVector<f64, 7>) -> Option<SVector<f64, 7>> {
     let lu = matrix.lu();
-    let pivots = lu.u().diagonal().abs();
+    let pivots = lu.lu_internal().diagonal().abs();
     let solution = if pivots.min() > SINGULAR * pivots.max() {
         lu.solve(rhs)
     } else {

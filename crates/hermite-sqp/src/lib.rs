@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 
-mod frame;
 mod free_tangents;
+mod gradients;
 mod kkt;
 mod outcome;
 mod problem;
@@ -13,6 +13,6 @@ mod start;
 pub use bezier_core;
 pub use outcome::{EdgeOutcome, EdgeStatus, FallbackReason};
 pub use problem::{CurveSample, EdgeProblem, EdgeProblemError};
-pub use refine::{CurveFoot, Refined, refine};
+pub use refine::{CurveFoot, FindFeet, MOST_FEET, Refined, refine};
 pub use settings::{CurveRefinement, Settings};
 pub use solve::solve;

@@ -12,7 +12,7 @@
 //! Everything inside is in units of the chord `L = |q4 - q0|` with `q0` as the origin, so that
 //! tolerances are relative and scaling by a power of two is exact.
 
-use bezier_core::glam::{DMat3, DVec3};
+use bezier_core::glam::DVec3;
 use bezier_core::{QuarticCurve, SurfaceJet, bernstein};
 use nalgebra::{SMatrix, SVector, Vector3};
 
@@ -59,8 +59,37 @@ pub(crate) struct End {
     pub(crate) normal: DVec3,
     /// Unit tangent pointing into the edge.
     pub(crate) tangent: DVec3,
-    /// Normal curvature in that direction, times the chord length.
+    /// `N × tangent`.
+    pub(crate) sideways: DVec3,
+    /// Normal curvature in direction of the tangent, times the chord length.
     pub(crate) curvature: f64,
+    /// Second fundamental form on (tangent, sideways) and on (sideways, sideways), times the chord
+    /// length.
+    twist: f64,
+    curvature_sideways: f64,
+}
+
+impl End {
+    fn new(jet: &SurfaceJet, point: DVec3, tangent: DVec3, chord: f64) -> Self {
+        let sideways = jet.normal.cross(tangent);
+        Self {
+            point,
+            normal: jet.normal,
+            tangent,
+            sideways,
+            curvature: jet.normal_curvature(tangent) * chord,
+            twist: jet.second_form(tangent, sideways) * chord,
+            curvature_sideways: jet.normal_curvature(sideways) * chord,
+        }
+    }
+
+    /// The second fundamental form of two vectors `(along the tangent, sideways)` in chord lengths:
+    /// a length in chord lengths.
+    pub(crate) fn second_form(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
+        a[0] * b[0] * self.curvature
+            + (a[0] * b[1] + a[1] * b[0]) * self.twist
+            + a[1] * b[1] * self.curvature_sideways
+    }
 }
 
 /// The unknowns: `(λ, μ, q2)` in units of the chord.
@@ -73,8 +102,6 @@ pub struct EdgeProblem {
     corners: [DVec3; 2],
     pub(crate) chord: f64,
     pub(crate) ends: [End; 2],
-    /// Second fundamental forms at the ends, times the chord length.
-    forms: [DMat3; 2],
     pub(crate) matrix: SMatrix<f64, 5, 5>,
     pub(crate) rhs: Unknowns,
 }
@@ -108,8 +135,7 @@ impl EdgeProblem {
                 .tangential(into)
                 .try_normalize()
                 .ok_or(EdgeProblemError::ChordAlongNormal { end: index })?;
-            let curvature = jet.normal_curvature(tangent) * chord;
-            Ok(End { point, normal: jet.normal, tangent, curvature })
+            Ok(End::new(jet, point, tangent, chord))
         };
         let ends =
             [make_end(start, DVec3::ZERO, direction, 0)?, make_end(end, direction, -direction, 1)?];
@@ -117,7 +143,6 @@ impl EdgeProblem {
             corners: [start.point, end.point],
             chord,
             ends,
-            forms: [start, end].map(|jet| jet.second_fundamental_form * chord),
             matrix: SMatrix::zeros(),
             rhs: SVector::zeros(),
         };
@@ -168,12 +193,6 @@ impl EdgeProblem {
             gradients.fixed_view_mut::<3, 1>(2, i).copy_from(&normal);
         }
         gradients
-    }
-
-    /// The second fundamental form at an end, times the chord length: for vectors in chord
-    /// lengths, a length in chord lengths.
-    pub(crate) fn second_form(&self, end: usize, a: DVec3, b: DVec3) -> f64 {
-        self.forms[end].mul_vec3(b).dot(a)
     }
 
     /// The curve of these unknowns, in world coordinates.

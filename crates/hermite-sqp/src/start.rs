@@ -3,7 +3,7 @@
 use bezier_core::QuarticCurve;
 use nalgebra::{SMatrix, SVector, Vector3};
 
-use crate::free_tangents::FreeTangents;
+use crate::free_tangents::{FreeTangents, norm};
 use crate::problem::{EdgeProblem, Unknowns};
 use crate::settings::Settings;
 
@@ -39,7 +39,7 @@ pub(crate) fn fallback(
     let before = FreeTangents::of(problem, &curve);
     let after = before.towards_conditions(problem, true, RESTORING_STEPS);
     let range = settings.min_length / STRETCH..=settings.max_length * STRETCH;
-    let sensible = after.conditions(problem).norm() <= RESTORED
+    let sensible = norm(after.conditions(problem)) <= RESTORED
         && [0, 1].iter().all(|&end| range.contains(&after.end_tangent(end).0))
         && (after.0 - before.0).norm() <= MAX_SHIFT;
     if sensible { after.curve(problem) } else { curve }

@@ -23,11 +23,23 @@ fn foot(field: Field) -> impl Fn(DVec3) -> Option<CurveFoot> {
     }
 }
 
+/// The same for many points; false where one has no foot.
+fn feet(foot: impl Fn(DVec3) -> Option<CurveFoot>) -> impl Fn(&[DVec3], &mut [CurveFoot]) -> bool {
+    move |points, feet| {
+        feet.iter_mut().zip(points).all(|(slot, &point)| {
+            foot(point).is_some_and(|found| {
+                *slot = found;
+                true
+            })
+        })
+    }
+}
+
 /// The curve before and after refinement.
 fn run(field: Field, ends: [DVec3; 2], refinement: CurveRefinement) -> (QuarticCurve, Refined) {
     let problem = problem(field, ends);
     let solved = solve(&problem, &Settings::default()).curve;
-    (solved, refine(&problem, &solved, refinement, &Settings::default(), &foot(field)))
+    (solved, refine(&problem, &solved, refinement, &Settings::default(), &feet(foot(field))))
 }
 
 /// Root mean square of the normal distances at the nine parameters of the objective, in chords.
@@ -164,11 +176,11 @@ fn nothing_to_do_and_nowhere_to_go() {
     // feet that run out on the way
     let no_foot = |_| None;
     let no_normal = |point| Some(CurveFoot { point, normal: DVec3::NAN });
-    let feet: [&dyn Fn(DVec3) -> Option<CurveFoot>; 2] = [&no_foot, &no_normal];
-    for foot in feet {
+    let cases: [&dyn Fn(DVec3) -> Option<CurveFoot>; 2] = [&no_foot, &no_normal];
+    for foot in cases {
         for refinement in REFINEMENTS {
             let settings = Settings::default();
-            let kept = refine(&problem(torus, ends), &before, refinement, &settings, foot);
+            let kept = refine(&problem(torus, ends), &before, refinement, &settings, &feet(foot));
             assert_eq!(kept, Refined { curve: before, accepted: 0 }, "{refinement:?}");
         }
     }

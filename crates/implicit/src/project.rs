@@ -102,27 +102,52 @@ pub fn project_many(
     settings: &ProjectionSettings,
 ) -> Vec<Result<DVec3, ProjectionError>> {
     let mut results = vec![Ok(DVec3::ZERO); points.len()];
-    let mut moving: Vec<(usize, Descent)> =
-        points.iter().map(|&p| Descent::new(p, length, settings)).enumerate().collect();
-    let mut positions = Vec::with_capacity(points.len());
-    let mut jets = vec![(0.0, DVec3::ZERO); points.len()];
-    while !moving.is_empty() {
-        positions.clear();
-        positions.extend(moving.iter().map(|(_, descent)| descent.point));
-        let jets = &mut jets[..moving.len()];
-        field.value_gradients(&positions, jets);
-        let mut jets = jets.iter();
-        moving.retain_mut(|(i, descent)| {
-            let Some(&(value, gradient)) = jets.next() else { return false };
-            let Some(outcome) = descent.step(value, gradient) else { return true };
-            results[*i] = outcome.map(|(foot, normal)| {
-                points[*i] = foot;
-                normal
-            });
-            false
-        });
+    for (points, results) in points.chunks_mut(BATCH).zip(results.chunks_mut(BATCH)) {
+        project_batch(field, points, length, settings, results);
     }
     results
+}
+
+/// Points that are projected together: enough to keep a batch busy, and they need no heap.
+const BATCH: usize = 16;
+
+/// [`project_many`] for at most [`BATCH`] points.
+fn project_batch(
+    field: &dyn ImplicitField,
+    points: &mut [DVec3],
+    length: f64,
+    settings: &ProjectionSettings,
+    results: &mut [Result<DVec3, ProjectionError>],
+) {
+    let mut descents = [Descent::new(DVec3::ZERO, length, settings); BATCH];
+    let mut positions = [DVec3::ZERO; BATCH];
+    let mut jets = [(0.0, DVec3::ZERO); BATCH];
+    // the points still on their way, their positions side by side
+    let mut moving: [usize; BATCH] = std::array::from_fn(|i| i);
+    let mut count = points.len();
+    positions[..count].copy_from_slice(points);
+    for (descent, &point) in descents.iter_mut().zip(&*points) {
+        descent.point = point;
+    }
+    while count > 0 {
+        field.value_gradients(&positions[..count], &mut jets[..count]);
+        let mut left = 0;
+        for k in 0..count {
+            let i = moving[k];
+            let (value, gradient) = jets[k];
+            let Some(outcome) = descents[i].step(value, gradient) else {
+                moving[left] = i;
+                positions[left] = descents[i].point;
+                left += 1;
+                continue;
+            };
+            results[i] = outcome.map(|(foot, normal)| {
+                points[i] = foot;
+                normal
+            });
+        }
+        count = left;
+    }
 }
 
 /// One point on its way to the surface.
@@ -161,7 +186,8 @@ impl Descent {
             return Some(Err(ProjectionError::Singular { point }));
         }
         let normal = gradient / slope;
-        let distance = value.abs() / slope;
+        let signed_distance = value / slope;
+        let distance = signed_distance.abs();
         if distance <= self.goal {
             return Some(Ok((point, normal)));
         }
@@ -176,7 +202,7 @@ impl Descent {
         }
         self.steps_left -= 1;
         self.before = Some((distance, point, normal));
-        self.point = point - normal * (value / slope);
+        self.point = point - normal * signed_distance;
         None
     }
 }

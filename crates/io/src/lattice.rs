@@ -58,7 +58,7 @@ pub enum SharedPointError {
 
 /// Where a lattice point lies in its triangle.
 #[derive(Clone, Copy, Debug)]
-enum Site {
+pub(crate) enum Site {
     Corner(Corner),
     Edge { edge: LocalEdge, step: usize },
     Interior(usize),
@@ -218,7 +218,8 @@ pub(crate) fn bits(point: DVec3) -> [u64; 3] {
     point.to_array().map(f64::to_bits)
 }
 
-fn site_of(m: MultiIndex, interior_count: &mut usize) -> Site {
+/// The site of a lattice point; interior ones are counted.
+pub(crate) fn site_of(m: MultiIndex, interior_count: &mut usize) -> Site {
     let exponents = [m.i, m.j, m.k];
     let degree = m.degree();
     if let Some(corner) = Corner::ALL.into_iter().find(|c| exponents[c.index()] == degree) {

@@ -1,11 +1,16 @@
 #![doc = include_str!("../README.md")]
 
 mod atomic;
+mod gap;
 mod in_file;
 mod lattice;
 mod node_order;
 mod obj;
+mod patterns;
+mod polygon;
+mod samples;
 mod scene;
+mod shared_points;
 mod tessellate;
 mod vtu;
 
@@ -17,11 +22,14 @@ pub use in_file::InFile;
 pub use lattice::SharedPointError;
 pub use node_order::node_order;
 pub use obj::{
-    ObjReadError, ObjWriteError, read_obj, read_obj_file, write_obj, write_obj_tessellation,
+    LargeFaces, ObjReadError, ObjWriteError, Polygons, read_obj, read_obj_file, read_polygons,
+    read_polygons_file, write_obj, write_obj_creased, write_obj_tessellation,
 };
+pub use polygon::Polygon;
+pub use samples::{CreasedTessellation, FacePoint, Samples};
 pub use scene::{Bounds, Method, Region, Scene, SceneError, SceneSurface};
 pub use tessellate::{Tessellation, tessellate};
 pub use vtu::{
-    CellData, CellKind, CellValues, Encoding, VtuOptions, VtuReadError, VtuSurface, VtuWriteError,
-    read_vtu, read_vtu_file, write_vtu,
+    CellData, CellKind, CellValues, Encoding, Grid, GridCell, VtuOptions, VtuReadError, VtuSurface,
+    VtuWriteError, read_grid, read_grid_file, read_vtu, read_vtu_file, write_grid, write_vtu,
 };

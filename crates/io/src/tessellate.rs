@@ -59,7 +59,7 @@ pub fn tessellate<const P: usize>(
 }
 
 /// Ranks of the corners of the small triangles in one face.
-fn triangle_pattern(divisions: usize) -> Vec<[usize; 3]> {
+pub(crate) fn triangle_pattern(divisions: usize) -> Vec<[usize; 3]> {
     let raised = |m: MultiIndex, i, j, k| MultiIndex::new(m.i + i, m.j + j, m.k + k).rank();
     let upright = MultiIndex::all(divisions - 1)
         .map(|m| [raised(m, 1, 0, 0), raised(m, 0, 1, 0), raised(m, 0, 0, 1)]);

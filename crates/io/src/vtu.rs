@@ -8,6 +8,7 @@ mod array;
 mod decode;
 mod document;
 mod error;
+mod grid;
 mod interpolation;
 mod read;
 mod write;
@@ -17,6 +18,7 @@ use bezier_core::BezierTriangle;
 use glam::DVec3;
 
 pub use error::{VtuReadError, VtuWriteError};
+pub use grid::{Grid, GridCell, read_grid, read_grid_file, write_grid};
 pub use read::{read_vtu, read_vtu_file};
 pub use write::write_vtu;
 
@@ -56,7 +58,7 @@ pub enum Encoding {
     Ascii,
 }
 
-/// One number for each patch, in face order.
+/// One number for each patch, in face order; in a [`Grid`] for each cell or point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellData {
     /// Name under which viewers offer the numbers.

@@ -274,7 +274,7 @@ fn refusals_of_the_writer() {
     assert_eq!(message(&few, vec![], Encoding::Binary), "there are 7 patches for 8 faces");
     assert_eq!(
         message(&nets, vec![data("q", CellValues::Int64(vec![1]))], Encoding::Binary),
-        "the cell data 'q' has 1 values for 8 patches"
+        "the data 'q' has 1 values for 8 patches"
     );
     assert_eq!(
         message(&nets, vec![data("q", eight()), data("q", eight())], Encoding::Binary),
@@ -289,7 +289,7 @@ fn refusals_of_the_writer() {
     let nan = || vec![data("q", CellValues::Float64(values.clone()))];
     assert_eq!(
         message(&nets, nan(), Encoding::Ascii),
-        "the cell data 'q' is NaN at patch 3; use the binary encoding"
+        "the data 'q' is NaN at element 3; use the binary encoding"
     );
     for encoding in [Encoding::Binary, Encoding::Appended] {
         let options = VtuOptions { cell_data: nan(), encoding, ..VtuOptions::default() };

@@ -2,24 +2,28 @@
 //! holds everywhere.
 
 mod equalise;
+mod fitted;
+mod spare;
 mod wishes;
 
 use basemesh::{
     FaceMap, FieldTarget, ImproveSettings, RemeshSettings, Simplified, SimplifyError,
-    SimplifySettings, TriMesh, polygonize_to_faces, remesh, simplify,
+    SimplifySettings, TriMesh, polygonize_to_faces, simplify,
 };
 use implicit::{Aabb, ImplicitSurface};
 use serde::{Deserialize, Serialize};
 
 use crate::error::FitError;
-use crate::measure::{FaceDeviation, settle};
+use crate::measure::FaceDeviation;
 use crate::memory::Memory;
-use crate::pipeline::{fit_again, fit_mesh, needs_repair};
+use crate::pipeline::{fit_mesh, needs_repair};
 use crate::progress::{Clock, Progress, Stage};
 use crate::settings::Settings;
 use crate::source::FieldSource;
 use crate::surface::{BaseMeshOrigin, G1Surface, Polygonized};
 pub(crate) use equalise::equalise;
+use fitted::{Fitted, Job};
+use spare::spare;
 use wishes::{all_wishes, urgent_wishes};
 
 /// How close the patches must come to the surface.
@@ -89,10 +93,15 @@ const REFINING_ROUNDS: usize = 20;
 const SHAPED: f64 = 0.03;
 /// Most faces of a base mesh that is fitted.
 const MOST_FACES: usize = 100_000;
+/// Refining ends without success once it has multiplied the faces by this.
+const MOST_GROWTH: usize = 4;
 /// Part of the tolerance that must not be exceeded, so that a denser measurement agrees.
 const SAFETY: f64 = 0.95;
-/// Triangles of the polygonization: as few as show the topology.
+/// Triangles of the polygonization: as few as show the topology. If patches of the first fit fold, it
+/// is repeated with `FINER` times as many, up to `FINE`.
 const COARSE: usize = 4000;
+const FINER: usize = 4;
+const FINE: usize = 16_000;
 /// Faces of the first base mesh for each triangle of the polygonization, inverse.
 const FIRST_REDUCTION: usize = 8;
 
@@ -102,10 +111,11 @@ const FIRST_REDUCTION: usize = 8;
 /// is fitted, measured and remeshed in turn: first everywhere, with edge lengths that make the
 /// deviation about the same on all faces (it falls with the sixth power of the length, normal
 /// angles with the fifth), then only where the tolerance is exceeded or where edges are not
-/// resolved. The number of faces in `settings` is not used.
+/// resolved. At last faces are taken away as long as it holds without them. The number of faces in `settings` is not used.
 ///
 /// A tolerance that cannot be met is not an error: [`Adaptation::met`] tells. At a sharp edge the mesh
-/// would grow without end; it ends before the base mesh has more than 100 000 faces.
+/// would grow without end; it ends at 100 000 faces, or when refining has made four times as many
+/// faces as there were.
 ///
 /// # Errors
 ///
@@ -119,71 +129,98 @@ pub fn fit_to_tolerance(
 ) -> Result<G1Surface, FitError> {
     tolerance.check()?;
     let mut clock = Clock::new(progress);
-    let dense =
-        clock.run(Stage::Polygonize, COARSE, || polygonize_to_faces(field, region, COARSE))?;
-    let polygonized = Polygonized::from(&dense);
-    let length = dense.mesh.diagonal();
-    if let Distance::Absolute(value) = tolerance.distance
-        && value < SMALLEST * length
-    {
-        return Err(FitError::DistanceTolerance { value, smallest: SMALLEST * length });
-    }
-    let source = FieldSource::new(field, length, settings.projection);
-    let first = clock.run(Stage::Simplify, dense.mesh.topology().face_count(), || {
-        let target = FieldTarget::new(field, length, settings.projection);
-        first_mesh(dense.mesh, &target, &settings.base_mesh.simplify)
-    })?;
-
-    let mut mesh = first.mesh;
+    let (source, mut fitted, origin) = start(field, region, tolerance, settings, &mut clock)?;
+    let memory = Memory::default();
+    let mut job = Job { source: &source, settings, memory, clock: &mut clock };
     let mut shaping = SHAPING_ROUNDS;
-    let (mut rounds, mut refining) = (0, 0);
-    let mut memory = Memory::default();
-    let (mut surface, met) = loop {
-        rounds += 1;
-        let faces = mesh.topology().face_count();
-        let (surface, mut deviations) =
-            fit_again(mesh, &source, settings, &mut memory, &mut clock)?;
+    let (mut rounds, mut refining) = (1, 0);
+    let mut shaped_faces = MOST_FACES;
+    let met = loop {
         if shaping == 0 {
-            clock
-                .run(Stage::Measure, 0, || settle(&mut deviations, &surface.patches.nets, &source));
+            job.settle(&mut fitted);
         }
-        let excess = excess(&surface, &deviations, tolerance);
+        let excess = excess(&fitted, tolerance);
         let wishes = if shaping > 0 {
-            Some(all_wishes(&surface.mesh, &excess))
+            Some(all_wishes(&fitted.surface.mesh, &excess))
         } else {
             refining += 1;
-            urgent_wishes(&surface, &excess, refining)
+            urgent_wishes(&fitted.surface, &excess, refining)
         };
-        let Some(wishes) = wishes else { break (surface, true) };
+        let Some(wishes) = wishes else { break true };
         if refining == REFINING_ROUNDS {
-            break (surface, false);
+            break false;
         }
-        mesh = clock
-            .run(Stage::Simplify, faces, || remesh(&surface.mesh, &source, &wishes, &few_faces()))?
-            .mesh;
-        if mesh.topology().face_count() > MOST_FACES {
-            break (surface, false);
+        let faces = fitted.faces();
+        let mut next = job.fit_remeshed(&fitted, &wishes, &few_faces())?;
+        if next.folds() > fitted.folds() {
+            // thin faces were too bold here
+            let usual = RemeshSettings { limits: ImproveSettings::default(), ..few_faces() };
+            next = job.fit_remeshed(&fitted, &wishes, &usual)?;
         }
-        let change = mesh.topology().face_count() as f64 / faces as f64;
-        shaping = if (change - 1.0).abs() < SHAPED { 0 } else { shaping.saturating_sub(1) };
+        rounds += 1;
+        fitted = next;
+        if fitted.faces() >= MOST_FACES.min(MOST_GROWTH * shaped_faces) {
+            break false;
+        }
+        let change = fitted.faces() as f64 / faces as f64;
+        if shaping > 0 {
+            shaping = if (change - 1.0).abs() < SHAPED { 0 } else { shaping - 1 };
+            shaped_faces = fitted.faces();
+        }
     };
+    if met {
+        fitted = spare(fitted, tolerance, &mut job)?;
+    }
+    let mut surface = fitted.surface;
     if needs_repair(&surface, &source) {
         surface = fit_mesh(surface.mesh, &source, settings, 0, &mut clock)?;
     }
-    surface.origin = BaseMeshOrigin {
-        polygonized: Some(polygonized),
-        simplified: Some(first.report),
-        added_faces: 0,
-        adaptation: Some(Adaptation { tolerance: *tolerance, met, rounds }),
-    };
+    let adaptation = Some(Adaptation { tolerance: *tolerance, met, rounds });
+    surface.origin = BaseMeshOrigin { adaptation, ..origin };
     surface.times = clock.times;
     Ok(surface)
+}
+
+/// The first fit: of a coarse mesh, or of finer ones while patches fold.
+fn start<'a>(
+    field: &'a dyn ImplicitSurface,
+    region: &Aabb,
+    tolerance: &Tolerance,
+    settings: &Settings,
+    clock: &mut Clock<'_>,
+) -> Result<(FieldSource<'a>, Fitted, BaseMeshOrigin), FitError> {
+    let mut triangles = COARSE;
+    loop {
+        let dense = clock
+            .run(Stage::Polygonize, triangles, || polygonize_to_faces(field, region, triangles))?;
+        let polygonized = Some(Polygonized::from(&dense));
+        let length = dense.mesh.diagonal();
+        if let Distance::Absolute(value) = tolerance.distance
+            && value < SMALLEST * length
+        {
+            return Err(FitError::DistanceTolerance { value, smallest: SMALLEST * length });
+        }
+        let source = FieldSource::new(field, length, settings.projection);
+        let first = clock.run(Stage::Simplify, dense.mesh.topology().face_count(), || {
+            let target = FieldTarget::new(field, length, settings.projection);
+            first_mesh(dense.mesh, &target, &settings.base_mesh.simplify)
+        })?;
+        let memory = Memory::default();
+        let fitted = Job { source: &source, settings, memory, clock }.fit(first.mesh)?;
+        if fitted.folds() == 0 || triangles == FINE {
+            let simplified = Some(first.report);
+            let origin =
+                BaseMeshOrigin { polygonized, simplified, added_faces: 0, adaptation: None };
+            return Ok((source, fitted, origin));
+        }
+        triangles *= FINER;
+    }
 }
 
 /// Wider limits than for a mesh of a given size: thin faces are tolerated where that saves some.
 fn few_faces() -> RemeshSettings {
     let limits = ImproveSettings { min_quality: 0.25, lean_cos: 0.1, ..ImproveSettings::default() };
-    RemeshSettings { limits, ..RemeshSettings::default() }
+    RemeshSettings { limits, most_faces: Some(MOST_FACES), ..RemeshSettings::default() }
 }
 
 /// The mesh that is fitted first, with few faces, but enough for its topology.
@@ -204,17 +241,13 @@ fn first_mesh(
 
 /// How much every face exceeds the tolerance: 1 is just within, and `e` asks for edges shorter by
 /// the sixth root of `e`. Folded patches and samples without foot exceed everything.
-fn excess(
-    surface: &G1Surface,
-    deviations: &FaceMap<FaceDeviation>,
-    tolerance: &Tolerance,
-) -> FaceMap<f64> {
-    let diagonal = surface.mesh.diagonal();
+fn excess(fitted: &Fitted, tolerance: &Tolerance) -> FaceMap<f64> {
+    let diagonal = fitted.surface.mesh.diagonal();
     let distance = match tolerance.distance {
         Distance::Relative(part) => part * diagonal,
         Distance::Absolute(length) => length,
     };
-    deviations.map(|_, face: &FaceDeviation| {
+    fitted.deviations.map(|_, face: &FaceDeviation| {
         if face.folded {
             return f64::INFINITY;
         }

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use basemesh::glam::DVec3;
 use basemesh::{FaceId, FaceMap, Foot, SurfaceTarget, TriMesh, VertexMap};
-use bezier_core::{Barycentric, SepticTriangle, SurfaceJet};
+use bezier_core::{Barycentric, MultiIndex, SepticTriangle, SurfaceJet};
 
 use crate::measure::GRID;
 
@@ -28,9 +28,13 @@ pub(crate) fn find_folds(
 fn is_folded(net: &SepticTriangle, corners: [DVec3; 3], target: &dyn SurfaceTarget) -> bool {
     static PARAMETERS: LazyLock<Vec<Barycentric>> =
         LazyLock::new(|| Barycentric::lattice(GRID).collect());
+    let cone = Cone::around(corners);
+    if cone.is_some_and(|cone| cone.contains_all_normals(net)) {
+        return false;
+    }
     let (points, normals): (Vec<DVec3>, Vec<DVec3>) =
         PARAMETERS.iter().map(|&at| net.point_and_area_normal(at)).unzip();
-    if upright(&normals, corners) {
+    if cone.is_some_and(|cone| normals.iter().all(|&normal| cone.contains(normal))) {
         return false;
     }
     let mut feet: Vec<Option<Foot>> = vec![None; points.len()];
@@ -41,11 +45,64 @@ fn is_folded(net: &SepticTriangle, corners: [DVec3; 3], target: &dyn SurfaceTarg
     !normals.iter().zip(feet).all(stands)
 }
 
-/// Whether all normals are so close to the mean of the corners' that the surface's normals, which
+/// Directions so close to the mean of the normals at the corners that the surface's normals, which
 /// are taken to stray from it by at most twice as much as those of the corners, cannot be at 90°.
-fn upright(normals: &[DVec3], corners: [DVec3; 3]) -> bool {
-    let Some(mean) = corners.iter().sum::<DVec3>().try_normalize() else { return false };
-    let spread = corners.iter().map(|n| n.dot(mean).clamp(-1.0, 1.0).acos()).fold(0.0, f64::max);
-    let least = (2.0 * spread).min(std::f64::consts::FRAC_PI_2).sin();
-    normals.iter().all(|normal| normal.dot(mean) > least * normal.length())
+#[derive(Clone, Copy)]
+struct Cone {
+    axis: DVec3,
+    /// Smallest cosine with the axis.
+    least: f64,
+}
+
+impl Cone {
+    fn around(corners: [DVec3; 3]) -> Option<Self> {
+        let axis = corners.iter().sum::<DVec3>().try_normalize()?;
+        let spread =
+            corners.iter().map(|n| n.dot(axis).clamp(-1.0, 1.0).acos()).fold(0.0, f64::max);
+        let least = (2.0 * spread).min(std::f64::consts::FRAC_PI_2).sin();
+        Some(Self { axis, least })
+    }
+
+    fn contains(&self, normal: DVec3) -> bool {
+        normal.dot(self.axis) > self.least * normal.length()
+    }
+
+    /// Whether the control net alone shows that every normal of the patch is inside: the derivatives
+    /// in both parameters are averages of differences in the net, so that each stays within the
+    /// largest distance of those from their mean, and their cross product near that of the means.
+    fn contains_all_normals(&self, net: &SepticTriangle) -> bool {
+        let [u, v] = net_differences(net).map(|differences| Ball::around(&differences));
+        let normal = u.centre.cross(v.centre);
+        let reach =
+            u.centre.length() * v.radius + v.centre.length() * u.radius + u.radius * v.radius;
+        normal.dot(self.axis) - reach > self.least * (normal.length() + reach)
+    }
+}
+
+/// Control points of a net of degree 6.
+const DIFFERENCES: usize = 28;
+
+/// Control points of the derivatives in `u` and `v`, over the degree.
+fn net_differences(net: &SepticTriangle) -> [[DVec3; DIFFERENCES]; 2] {
+    let mut differences = [[DVec3::ZERO; DIFFERENCES]; 2];
+    for (rank, MultiIndex { i, j, k }) in MultiIndex::all(6).enumerate() {
+        let last = net[MultiIndex::new(i, j, k + 1)];
+        differences[0][rank] = net[MultiIndex::new(i + 1, j, k)] - last;
+        differences[1][rank] = net[MultiIndex::new(i, j + 1, k)] - last;
+    }
+    differences
+}
+
+/// A ball that contains some vectors.
+struct Ball {
+    centre: DVec3,
+    radius: f64,
+}
+
+impl Ball {
+    fn around(vectors: &[DVec3]) -> Self {
+        let centre = vectors.iter().sum::<DVec3>() / vectors.len() as f64;
+        let square = vectors.iter().map(|v| v.distance_squared(centre)).fold(0.0, f64::max);
+        Self { centre, radius: square.sqrt() }
+    }
 }

@@ -6,6 +6,7 @@ mod adapt;
 mod error;
 mod folds;
 mod memory;
+pub mod nagata_surface;
 mod objectives;
 mod pipeline;
 mod progress;
@@ -27,6 +28,7 @@ pub use hermite_sqp;
 pub use implicit;
 #[cfg(feature = "io")]
 pub use io;
+pub use nagata;
 pub use objectives::Retreat;
 pub use pipeline::{fit, fit_base_mesh, fit_source};
 pub use progress::{Progress, Silent, Stage, StageTimes};

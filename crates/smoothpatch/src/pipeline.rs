@@ -1,8 +1,9 @@
 //! The story: from an implicit function to a smooth surface, one stage after the other.
 
+use basemesh::glam::DVec3;
 use basemesh::{
-    EdgeId, EdgeMap, FaceMap, FieldTarget, SurfaceTarget, TriMesh, VertexMap, polygonize_to_faces,
-    simplify,
+    EdgeId, EdgeMap, FaceMap, FieldTarget, Foot, SurfaceTarget, TriMesh, VertexMap,
+    polygonize_to_faces, simplify,
 };
 use bezier_core::SurfaceJet;
 use g1_triangular::{CurveNetwork, SmoothPatches, fill_reusing, join_reusing};
@@ -304,12 +305,17 @@ fn fit_curve(
         FitError::Edge { edge: edge.index(), a: a.index(), b: b.index(), reason }
     })?;
     let solved = hermite_sqp::solve(&problem, &settings.curves);
-    let foot = |near| {
-        let mut foot = [None];
-        target.linear_feet(&[near], &mut foot);
-        foot[0].map(|foot| CurveFoot { point: foot.point, normal: foot.normal })
+    let feet = |points: &[DVec3], feet: &mut [CurveFoot]| {
+        let mut found: [Option<Foot>; hermite_sqp::MOST_FEET] = [None; hermite_sqp::MOST_FEET];
+        target.linear_feet(points, &mut found[..points.len()]);
+        feet.iter_mut().zip(&found).all(|(slot, foot)| {
+            foot.is_some_and(|Foot { point, normal }| {
+                *slot = CurveFoot { point, normal };
+                true
+            })
+        })
     };
-    let refined = hermite_sqp::refine(&problem, &solved.curve, refinement, &settings.curves, &foot);
+    let refined = hermite_sqp::refine(&problem, &solved.curve, refinement, &settings.curves, &feet);
     Ok(EdgeOutcome { curve: refined.curve, ..solved })
 }
 

@@ -12,9 +12,10 @@ use smoothpatch::{
 
 /// Over the diagonal, loose ones first.
 const TOLERANCES: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
-/// The sweep starts at this part of the faces of the loosest fit, and grows by this factor.
-const SWEEP_START: f64 = 0.4;
-const SWEEP_STEP: f64 = 1.1;
+/// The sweep starts at this part of the faces of the loosest fit, and grows by this part, both in
+/// percent.
+const SWEEP_START: usize = 40;
+const SWEEP_STEP: usize = 10;
 
 pub(super) const SHAPES: [&str; 7] =
     ["sphere", "torus", "dodecahedron", "double-torus", "mcmullen", "chair", "deccube"];
@@ -98,15 +99,15 @@ fn measured(shape: &NamedShape, surface: &G1Surface) -> (f64, usize) {
 
 /// Fits with more and more faces until every tolerance is met or has been met with fewer.
 fn sweep(shape: &NamedShape, fits: &mut [Fit]) -> Result<()> {
-    let loosest = fits.first().map_or(0.0, |fit| fit.faces as f64);
-    let mut count = SWEEP_START * loosest;
+    let loosest = fits.first().map_or(0, |fit| fit.faces);
+    let mut count = (loosest * SWEEP_START / 200 * 2).max(4);
     while let Some(open) = fits.iter().position(|fit| fit.sweep_faces.is_none()) {
         let open = &mut fits[open..];
-        if open.iter().all(|fit| count > fit.faces as f64) {
+        if open.iter().all(|fit| count > fit.faces) {
             break;
         }
-        let settings = Settings::with_faces(2 * (count / 2.0).round() as usize);
-        count *= SWEEP_STEP;
+        let settings = Settings::with_faces(count);
+        count += (count * SWEEP_STEP / 200 * 2).max(2);
         let surface = match fit(&*shape.field(), &shape.region, &settings, &mut Silent) {
             // the topology needs more
             Err(FitError::Simplify(_)) => continue,

@@ -34,15 +34,28 @@ impl Metric {
         Self { scale_squared: if turning > 0.0 { weight * space / turning } else { 0.0 } }
     }
 
+    /// Squared length between two points with their unit normals.
+    pub(crate) fn between(&self, (p, n): (DVec3, DVec3), (q, m): (DVec3, DVec3)) -> f64 {
+        let turning = if self.scale_squared > 0.0 { n.distance_squared(m) } else { 0.0 };
+        p.distance_squared(q) + self.scale_squared * turning
+    }
+
     /// Squared length of the edge between two vertices.
     pub(crate) fn squared(&self, surface: &SurfaceMesh<'_>, a: VertexId, b: VertexId) -> f64 {
-        let [p, q] = [a, b].map(|v| surface.mesh.position(v));
-        let turning = if self.scale_squared > 0.0 {
-            surface.normal(a).distance_squared(surface.normal(b))
-        } else {
-            0.0
+        let [here, there] = [a, b].map(|v| (surface.mesh.position(v), surface.normal(v)));
+        self.between(here, there)
+    }
+
+    /// Four times the area of the faces around a vertex.
+    pub(crate) fn area(&self, surface: &SurfaceMesh<'_>, v: VertexId) -> f64 {
+        let mesh = &surface.mesh;
+        let face = |h| {
+            let [q, r] = [mesh.target(h), mesh.apex(h)];
+            let [a, b, c] = [[q, r], [v, q], [v, r]].map(|[x, y]| self.squared(surface, x, y));
+            // Heron's formula
+            (2.0 * (a * b + b * c + c * a) - a * a - b * b - c * c).max(0.0).sqrt()
         };
-        p.distance_squared(q) + self.scale_squared * turning
+        mesh.fan(v).map(face).sum()
     }
 }
 

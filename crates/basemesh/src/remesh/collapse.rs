@@ -100,7 +100,8 @@ impl Remesh<'_> {
         ends.into_iter().any(|end| {
             mesh.fan(end).map(|g| mesh.target(g)).filter(|v| !ends.contains(v)).any(|v| {
                 let wanted = self.wanted([end, v]).or(self.wanted(ends));
-                let length = mesh.position(v).distance(foot.point);
+                let here = (mesh.position(v), self.surface.normal(v));
+                let length = self.metric.between(here, (foot.point, foot.normal)).sqrt();
                 wanted.is_some_and(|wanted| length > longest * wanted)
             })
         })

@@ -5,14 +5,16 @@ use glam::DVec3;
 use super::{Remesh, RemeshSettings};
 use crate::ids::VertexId;
 use crate::improve::guard::Guard;
+use crate::improve::metric::to_circumcentre;
 use crate::improve::sliver::check_move;
 
 /// Parts of the wanted step that are tried in turn.
 const STEPS: [f64; 2] = [1.0, 0.5];
 
 impl Remesh<'_> {
-    /// Moves every vertex with a wish in turn to the centre of its faces, each weighted with its
-    /// area over the square of the wanted length; returns the number of moves.
+    /// Moves every vertex with a wish in turn to the mean of the circumcentres of its faces, taken in
+    /// the metric, each weighted with the square of its area over that of the wanted size; returns
+    /// the number of moves.
     pub(super) fn relax(&mut self, settings: &RemeshSettings, guard: &Guard) -> usize {
         let mut moves = 0;
         for _ in 0..settings.limits.smoothing_iterations {
@@ -41,22 +43,22 @@ impl Remesh<'_> {
 
     fn wanted_step(&self, v: VertexId) -> Option<DVec3> {
         let mesh = &self.surface.mesh;
-        let from = mesh.position(v);
         let own = self.lengths[v.index()]?;
         let (mut sum, mut total) = (DVec3::ZERO, 0.0);
         for h in mesh.fan(v) {
-            let others = [mesh.target(h), mesh.apex(h)];
-            let [p, q] = others.map(|w| mesh.position(w) - from);
-            let [a, b] = others.map(|w| self.lengths[w.index()].unwrap_or(own));
-            let wanted = (own + a + b) / 3.0;
-            let weight = p.cross(q).length() / (wanted * wanted);
-            sum += weight * (p + q);
-            total += weight;
+            let ids @ [_, q, r] = [v, mesh.target(h), mesh.apex(h)];
+            let sides = [[q, r], [v, q], [v, r]];
+            let sides = sides.map(|[a, b]| self.metric.squared(&self.surface, a, b));
+            let (weight, way) = to_circumcentre(ids.map(|w| mesh.position(w)), sides);
+            let [a, b] = [q, r].map(|w| self.lengths[w.index()].unwrap_or(own));
+            let wanted = ((own + a + b) / 3.0).powi(4);
+            sum += way / wanted;
+            total += weight / wanted;
         }
         if total <= 0.0 {
             return None;
         }
-        let way = sum / (3.0 * total);
+        let way = sum / total;
         let normal = self.surface.normal(v);
         Some(way - way.dot(normal) * normal)
     }

@@ -15,6 +15,7 @@ impl Remesh<'_> {
     /// Splits edges that are longer than wanted or turn too far, the worst first (ties by half-edge
     /// id), until a sweep finds none.
     pub(super) fn split_long(&mut self, settings: &RemeshSettings) {
+        let most = settings.most_faces.unwrap_or(usize::MAX);
         for _ in 0..MAX_SWEEPS {
             let mut edges: Vec<(f64, HalfedgeId)> = self
                 .surface
@@ -27,7 +28,10 @@ impl Remesh<'_> {
             // an earlier split may have changed the edge of a half-edge: no longer than it was
             let splits = edges
                 .into_iter()
-                .filter(|&(need, h)| self.need(settings, h) >= need && self.split(h))
+                .filter(|&(need, h)| {
+                    let room = self.surface.mesh.face_count() < most;
+                    room && self.need(settings, h) >= need && self.split(h)
+                })
                 .count();
             if splits == 0 {
                 break;
@@ -80,7 +84,7 @@ impl Remesh<'_> {
                 .all(|(area, v)| area.dot(foot.normal) > 0.0 && area.dot(surface.normal(v)) > 0.0)
         });
         if stands {
-            let wanted = self.wanted(ends).unwrap_or(0.5 * pa.distance(pb));
+            let wanted = self.wanted(ends).unwrap_or_else(|| 0.5 * self.length(ends));
             self.surface.split(h, foot);
             self.lengths.push(Some(wanted));
         }

@@ -131,23 +131,47 @@ impl PartialEq for Entry {
 impl Eq for Entry {}
 
 /// A priority queue of edges; outdated entries are dropped when they surface.
+///
+/// Only the cheapest entries are in the heap, so many as fit a processor's cache; all others cost
+/// more than any of them and wait in no order.
 struct Queue {
     heap: BinaryHeap<Entry>,
+    waiting: Vec<Entry>,
+    /// The dearest entry that goes to the heap; none before the first batch.
+    limit: Option<Entry>,
     /// How often the surroundings of a vertex changed.
     versions: Vec<u32>,
     /// Half-edges whose edge was refused since its surroundings changed.
     refused: Vec<bool>,
 }
 
+/// Entries that go to the heap at a time, at least, and as a share of those that wait.
+const MIN_BATCH: usize = 8192;
+const BATCHES: usize = 16;
+
 impl Queue {
     fn new(surface: &SurfaceMesh<'_>, quadrics: &[Quadric]) -> Self {
         let mesh = &surface.mesh;
         let price = |h| Entry { cost: merge(mesh, quadrics, h).cost, h, version: 0 };
         Self {
-            heap: mesh.edges().map(price).collect::<Vec<_>>().into(),
+            heap: BinaryHeap::new(),
+            waiting: mesh.edges().map(price).collect(),
+            limit: None,
             versions: vec![0; mesh.vertex_slots()],
             refused: vec![false; 3 * mesh.face_slots()],
         }
+    }
+
+    /// Moves the cheapest of the waiting entries to the empty heap; `None` if there are none.
+    fn refill(&mut self) -> Option<()> {
+        let last = self.waiting.len().checked_sub(1)?;
+        let count = (self.waiting.len() / BATCHES).max(MIN_BATCH);
+        // the greatest entry is the cheapest
+        let first = last.saturating_sub(count);
+        self.waiting.select_nth_unstable(first);
+        self.limit = Some(self.waiting[first]);
+        self.heap = self.waiting.split_off(first).into();
+        Some(())
     }
 
     fn version(&self, surface: &SurfaceMesh<'_>, h: HalfedgeId) -> u32 {
@@ -157,21 +181,29 @@ impl Queue {
 
     /// The cheapest edge whose price is up to date.
     fn pop(&mut self, surface: &SurfaceMesh<'_>) -> Option<HalfedgeId> {
-        while let Some(entry) = self.heap.pop() {
+        loop {
+            let Some(entry) = self.heap.pop() else {
+                self.refill()?;
+                continue;
+            };
             if surface.mesh.is_live_halfedge(entry.h)
                 && entry.version == self.version(surface, entry.h)
             {
                 return Some(entry.h);
             }
         }
-        None
     }
 
     fn push(&mut self, surface: &SurfaceMesh<'_>, quadrics: &[Quadric], h: HalfedgeId) {
         let h = h.min(surface.mesh.twin(h));
         self.refused[h.index()] = false;
         let version = self.version(surface, h);
-        self.heap.push(Entry { cost: merge(&surface.mesh, quadrics, h).cost, h, version });
+        let entry = Entry { cost: merge(&surface.mesh, quadrics, h).cost, h, version };
+        if self.limit.is_some_and(|limit| entry >= limit) {
+            self.heap.push(entry);
+        } else {
+            self.waiting.push(entry);
+        }
     }
 
     fn refuse(&mut self, h: HalfedgeId) {

@@ -1,28 +1,58 @@
 //! The same patch with more control points: degree elevation and subdivision.
 
-use super::BezierTriangle;
+use super::{BezierTriangle, degree_of};
 use crate::barycentric::Barycentric;
 use crate::bernstein::binomial;
 use crate::coefficient::Coefficient;
 use crate::local_edge::Corner;
 use crate::multi_index::MultiIndex;
 
+/// From `P` to `Q` control points.
+struct Elevation<const P: usize, const Q: usize>;
+
+impl<const P: usize, const Q: usize> Elevation<P, Q> {
+    /// The weight of each old point, by rank, in each new one.
+    const WEIGHTS: [[f64; Q]; P] = {
+        let (low, high) = (degree_of(P), degree_of(Q));
+        let mut weights = [[0.0; Q]; P];
+        let mut old = 0;
+        while old < P {
+            let s = MultiIndex::at_rank(low, old);
+            let mut new = 0;
+            while new < Q {
+                let m = MultiIndex::at_rank(high, new);
+                if s.i <= m.i && s.j <= m.j && s.k <= m.k {
+                    weights[old][new] =
+                        binomial(m.i, s.i) * binomial(m.j, s.j) * binomial(m.k, s.k)
+                            / binomial(high, low);
+                }
+                new += 1;
+            }
+            old += 1;
+        }
+        weights
+    };
+}
+
 impl<V: Coefficient, const P: usize> BezierTriangle<V, P> {
     /// The same patch with `Q` control points, of a degree at least as high.
+    ///
+    /// Control point `s` adds to each point `s + d`, `d` an index of the degree that is added, with
+    /// the weight `C(m.i, s.i) C(m.j, s.j) C(m.k, s.k) / C(high, low)` of `m = s + d`.
     #[must_use]
     pub fn elevate_to<const Q: usize>(&self) -> BezierTriangle<V, Q> {
-        let (low, high) = (Self::DEGREE, BezierTriangle::<V, Q>::DEGREE);
         const { assert!(Q >= P, "elevation cannot lower the degree") };
-        BezierTriangle::from_fn(|m| {
-            MultiIndex::all(low).filter(|s| s.i <= m.i && s.j <= m.j && s.k <= m.k).fold(
-                V::ZERO,
-                |sum, s| {
-                    let weight = binomial(m.i, s.i) * binomial(m.j, s.j) * binomial(m.k, s.k)
-                        / binomial(high, low);
-                    sum + self[s] * weight
-                },
-            )
-        })
+        let added = BezierTriangle::<V, Q>::DEGREE - Self::DEGREE;
+        let mut net = [V::ZERO; Q];
+        for (rank, s) in MultiIndex::all(Self::DEGREE).enumerate() {
+            for row in 0..=added {
+                for k in 0..=row {
+                    let m = MultiIndex::new(s.i + added - row, s.j + row - k, s.k + k).rank();
+                    net[m] = net[m] + self.net[rank] * Elevation::<P, Q>::WEIGHTS[rank][m];
+                }
+            }
+        }
+        BezierTriangle { net }
     }
 
     /// The blossom: the symmetric multi-affine form whose diagonal is the patch.

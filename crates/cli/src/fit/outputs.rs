@@ -1,84 +1,40 @@
-//! The files that are written: checked before the long work, written whole or not at all.
+//! The files of a fitted surface.
 
-use std::io::{self, Write};
-use std::path::{Path, PathBuf, absolute};
+use std::path::Path;
 
-use anyhow::bail;
-use serde::Serialize;
 use smoothpatch::G1Surface;
 use smoothpatch::basemesh::FaceMap;
 use smoothpatch::io::{
-    CellData, CellKind, CellValues, VtuOptions, WriteError, tessellate, write_atomically,
-    write_obj_tessellation, write_vtu,
+    CellData, CellKind, CellValues, VtuOptions, tessellate, write_obj_tessellation, write_vtu,
 };
 use smoothpatch::measure::FaceDeviation;
 
 use super::FitArguments;
+use crate::output_files::{Format, OutputFiles, Written, write_file};
 
 /// What is written and where.
 pub(crate) struct Outputs {
-    surfaces: Vec<(Format, PathBuf)>,
-    report: Option<PathBuf>,
+    files: OutputFiles,
     cells: CellKind,
     divisions: usize,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
-    Vtu,
-    Obj,
-}
-
-/// A file that is complete.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub(crate) struct Written {
-    pub(crate) file: PathBuf,
-    pub(crate) bytes: u64,
 }
 
 impl Outputs {
     /// What the options ask for; only names are looked at.
     pub(crate) fn new(arguments: &FitArguments) -> anyhow::Result<Self> {
-        let surfaces = arguments
-            .outputs
-            .iter()
-            .map(|path| Ok((format_of(path)?, path.clone())))
-            .collect::<anyhow::Result<Vec<_>>>()?;
-        if let Some(path) = &arguments.report
-            && extension(path) != "json"
-        {
-            bail!("--report {}: the name of a report must end with .json", path.display());
-        }
-        let report = arguments.report.clone();
+        let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?;
         let (cells, divisions) = (arguments.cells.into(), arguments.divisions);
-        Ok(Self { surfaces, report, cells, divisions })
-    }
-
-    fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        self.surfaces.iter().map(|(_, path)| path).chain(&self.report)
+        Ok(Self { files, cells, divisions })
     }
 
     /// Checks that every file can be written.
     pub(crate) fn check_places(&self) -> anyhow::Result<()> {
-        Ok(self.files().try_for_each(|path| try_to_write(path))?)
+        self.files.check_places()
     }
 
     /// Checks that every file is written once and is no input.
     pub(crate) fn check_distinct(&self, inputs: Vec<&Path>) -> anyhow::Result<()> {
-        let mut taken = inputs.into_iter().map(absolute).collect::<Result<Vec<_>, _>>()?;
-        let inputs = taken.len();
-        for path in self.files() {
-            let place = absolute(path)?;
-            match taken.iter().position(|other| *other == place) {
-                Some(at) if at < inputs => {
-                    bail!("{} is read; it would be overwritten with a result", path.display())
-                }
-                Some(_) => bail!("{} would be written twice", path.display()),
-                None => {}
-            }
-            taken.push(place);
-        }
-        Ok(())
+        self.files.check_distinct(inputs)
     }
 
     /// Writes the surface in all formats asked for.
@@ -94,7 +50,7 @@ impl Outputs {
             ..VtuOptions::default()
         };
         let mut written = Vec::new();
-        for (format, path) in &self.surfaces {
+        for (format, path) in &self.files.surfaces {
             written.push(match format {
                 Format::Vtu => write_file(path, |out| Ok(write_vtu(out, topology, nets, &vtu)?))?,
                 Format::Obj => {
@@ -105,40 +61,6 @@ impl Outputs {
         }
         Ok(written)
     }
-}
-
-/// Writes one file whole, or leaves everything as it was.
-pub(crate) fn write_file(
-    path: &Path,
-    contents: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> anyhow::Result<Written> {
-    write_atomically(path, contents)?;
-    Ok(Written { file: path.to_owned(), bytes: path.metadata()?.len() })
-}
-
-/// Everything that writing does before and after the contents are made.
-fn try_to_write(path: &Path) -> Result<(), WriteError> {
-    let mut open = false;
-    let outcome = write_atomically(path, |_| {
-        open = true;
-        Err(io::Error::other("only a trial"))
-    });
-    if open { Ok(()) } else { outcome }
-}
-
-fn format_of(path: &Path) -> anyhow::Result<Format> {
-    match extension(path).as_str() {
-        "vtu" => Ok(Format::Vtu),
-        "obj" => Ok(Format::Obj),
-        _ => bail!(
-            "-o {}: the name must end with .vtu (patches) or .obj (triangles)",
-            path.display()
-        ),
-    }
-}
-
-fn extension(path: &Path) -> String {
-    path.extension().map(|text| text.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
 }
 
 fn cell_data(faces: &FaceMap<FaceDeviation>, diagonal: f64) -> Vec<CellData> {

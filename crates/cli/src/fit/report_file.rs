@@ -7,8 +7,8 @@ use smoothpatch::Report;
 use smoothpatch::io::SceneSurface;
 use smoothpatch::measure::Certificate;
 
-use super::outputs::{Written, write_file};
 use super::task::{BaseMesh, Task, method_name};
+use crate::output_files::{Written, write_file};
 
 /// What was asked for, what was measured, and what was written.
 #[derive(Serialize)]

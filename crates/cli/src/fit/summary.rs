@@ -3,8 +3,8 @@
 use smoothpatch::measure::Certificate;
 use smoothpatch::{Adaptation, Distance, Report, Stage, Tolerance};
 
-use super::outputs::Written;
 use super::task::{BaseMesh, Task, method_name};
+use crate::output_files::Written;
 use crate::table::{Table, bytes, degrees, grid, length, of_diagonal, yes_no};
 use crate::values::region_text;
 

@@ -40,7 +40,7 @@ fn place() -> Workplace {
 }
 
 /// Runs the program; the message must contain all fragments.
-fn refuses(place: &Workplace, arguments: &[&str], fragments: &[&str]) {
+pub(crate) fn refuses(place: &Workplace, arguments: &[&str], fragments: &[&str]) {
     let before = place.everything();
     let run = place.run_with(arguments);
     let Run { code, stdout, stderr } = &run;

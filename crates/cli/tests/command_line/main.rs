@@ -5,5 +5,7 @@ mod bad_input;
 mod check;
 mod fit;
 mod help;
+mod nagata;
+mod nagata_bad_input;
 mod shapes;
 mod workplace;

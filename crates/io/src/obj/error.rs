@@ -6,7 +6,7 @@ use basemesh::{MeshError, TopologyError};
 use glam::DVec3;
 use thiserror::Error;
 
-/// Why an OBJ file is not a triangle mesh. Lines, and indices that stand in the file, count from 1.
+/// Why an OBJ file is not a mesh. Lines, and indices that stand in the file, count from 1.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ObjReadError {
@@ -84,6 +84,47 @@ pub enum ObjReadError {
         face: usize,
         /// Its number of corners.
         corners: usize,
+    },
+    /// A face with fewer than three corners, or with more than are read.
+    #[error(
+        "line {line}: face {face} has {corners} corners; only triangles and quadrilaterals are \
+         read, so split the faces before"
+    )]
+    NotAPolygon {
+        /// Line in the file.
+        line: usize,
+        /// The face, from 1.
+        face: usize,
+        /// Its number of corners.
+        corners: usize,
+    },
+    /// A face uses a vertex twice.
+    #[error("line {line}: face {face} uses vertex {vertex} more than once; remove or repair it")]
+    RepeatedVertex {
+        /// Line in the file.
+        line: usize,
+        /// The face, from 1.
+        face: usize,
+        /// The vertex, from 1.
+        vertex: usize,
+    },
+    /// A normal that is not made of three finite numbers.
+    #[error("line {line}: a normal has 3 finite numbers")]
+    Normal {
+        /// Line in the file.
+        line: usize,
+    },
+    /// A corner names a normal that does not exist.
+    #[error("line {line}: face {face} uses normal {index}, but there are only {count} normals")]
+    MissingNormal {
+        /// Line in the file.
+        line: usize,
+        /// The face, from 1.
+        face: usize,
+        /// The normal as written: from 1, or negative and relative to the last one.
+        index: i64,
+        /// Normals in the file, or so far for a negative index.
+        count: usize,
     },
     /// No face in the whole file.
     #[error("there are no faces; is this an OBJ file?")]

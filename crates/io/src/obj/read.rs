@@ -1,40 +1,20 @@
-//! Reading the polygonal part of OBJ.
+//! Reading triangle meshes.
 //!
 //! Coordinates are parsed as f64 and rounded once, so a file written with shortest round-trip digits
 //! comes back bit for bit.
 
 use std::io::Read;
 use std::path::Path;
+use std::str::SplitWhitespace;
 
 use basemesh::{MeshError, TopologyError, TriMesh};
 use glam::DVec3;
 
 use super::error::ObjReadError;
+use super::statements::{
+    CornerIndices, Statement, corner, for_each_statement, from_one, position, resolve,
+};
 use crate::in_file::{InFile, parse_file};
-
-/// Statements that say nothing about the triangles of a mesh.
-const SKIPPED: [&str; 20] = [
-    "vt",
-    "vn",
-    "vp",
-    "g",
-    "o",
-    "s",
-    "mg",
-    "l",
-    "p",
-    "usemtl",
-    "mtllib",
-    "usemap",
-    "maplib",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "shadow_obj",
-    "trace_obj",
-    "call",
-];
 
 /// Reads a triangle mesh.
 ///
@@ -62,26 +42,12 @@ pub fn read_obj_file(path: impl AsRef<Path>) -> Result<TriMesh, InFile<ObjReadEr
 }
 
 fn parse(bytes: &[u8]) -> Result<TriMesh, ObjReadError> {
-    // names and comments may be in any encoding; statements are ASCII
-    let text = String::from_utf8_lossy(bytes);
     let mut parser = Parser::default();
-    let mut statement = String::new();
-    let mut first_line = None;
-    for (number, line) in (1..).zip(text.lines()) {
-        let line_number = *first_line.get_or_insert(number);
-        if let Some(continued) = line.strip_suffix('\\') {
-            statement.push_str(continued);
-            statement.push(' ');
-            continue;
-        }
-        statement.push_str(line);
-        parser.statement(line_number, &statement)?;
-        statement.clear();
-        first_line = None;
-    }
-    if let Some(line) = first_line {
-        parser.statement(line, &statement)?;
-    }
+    for_each_statement(bytes, |line, statement| match statement {
+        Statement::Vertex(words) => parser.vertex(line, words),
+        Statement::Normal(_) => Ok(()),
+        Statement::Face(words) => parser.face(line, words),
+    })?;
     parser.finish()
 }
 
@@ -94,47 +60,13 @@ struct Parser {
 }
 
 impl Parser {
-    fn statement(&mut self, line: usize, text: &str) -> Result<(), ObjReadError> {
-        let text = text.split_once('#').map_or(text, |(before, _)| before);
-        let mut words = text.split_whitespace();
-        match words.next() {
-            None => Ok(()),
-            Some("v") => self.vertex(line, words),
-            Some("f") => self.face(line, words),
-            Some(skipped) if SKIPPED.contains(&skipped) => Ok(()),
-            Some(other) => Err(ObjReadError::Statement { line, keyword: other.to_owned() }),
-        }
-    }
-
-    fn vertex<'t>(
-        &mut self,
-        line: usize,
-        words: impl Iterator<Item = &'t str>,
-    ) -> Result<(), ObjReadError> {
-        let number = |text: &str| {
-            let text = text.to_owned();
-            text.parse::<f64>().map_err(|_| ObjReadError::Number { line, text })
-        };
-        let numbers = words.map(number).collect::<Result<Vec<_>, _>>()?;
-        let count = numbers.len();
-        if !matches!(count, 3 | 4 | 6 | 7) {
-            return Err(ObjReadError::CoordinateCount { line, count });
-        }
-        let position = DVec3::new(numbers[0], numbers[1], numbers[2]);
-        if !position.is_finite() {
-            let vertex = self.positions.len() + 1;
-            return Err(ObjReadError::NotFinite { line, vertex, position });
-        }
-        self.positions.push(position);
+    fn vertex(&mut self, line: usize, words: SplitWhitespace<'_>) -> Result<(), ObjReadError> {
+        self.positions.push(position(line, self.positions.len() + 1, words)?);
         self.position_lines.push(line);
         Ok(())
     }
 
-    fn face<'t>(
-        &mut self,
-        line: usize,
-        words: impl Iterator<Item = &'t str>,
-    ) -> Result<(), ObjReadError> {
+    fn face(&mut self, line: usize, words: SplitWhitespace<'_>) -> Result<(), ObjReadError> {
         let corners = words.map(|word| self.corner(line, word)).collect::<Result<Vec<_>, _>>()?;
         let face = self.faces.len() + 1;
         let Ok(triangle) = <[usize; 3]>::try_from(corners.as_slice()) else {
@@ -145,31 +77,11 @@ impl Parser {
         Ok(())
     }
 
-    /// The vertex of `v`, `v/vt`, `v//vn` or `v/vt/vn`, from 0.
+    /// The vertex of a corner, from 0.
     fn corner(&self, line: usize, text: &str) -> Result<usize, ObjReadError> {
-        let malformed = || ObjReadError::Corner { line, text: text.to_owned() };
-        let mut parts = text.split('/');
-        let index = parts.next().and_then(nonzero).ok_or_else(malformed)?;
-        let others: Vec<&str> = parts.collect();
-        // one part may be empty: `v//vn`
-        let well_formed = match *others.as_slice() {
-            [] => true,
-            [texture] => nonzero(texture).is_some(),
-            ["", normal] => nonzero(normal).is_some(),
-            [texture, normal] => nonzero(texture).and(nonzero(normal)).is_some(),
-            _ => false,
-        };
-        if !well_formed {
-            return Err(malformed());
-        }
-        let count = self.positions.len();
-        let missing =
-            || ObjReadError::MissingVertex { line, face: self.faces.len() + 1, index, count };
-        let magnitude = usize::try_from(index.unsigned_abs()).map_err(|_| missing())?;
-        if index > 0 {
-            return Ok(magnitude - 1);
-        }
-        count.checked_sub(magnitude).ok_or_else(missing)
+        let CornerIndices { vertex: index, .. } = corner(line, text)?;
+        let (face, count) = (self.faces.len() + 1, self.positions.len());
+        resolve(index, count).ok_or(ObjReadError::MissingVertex { line, face, index, count })
     }
 
     fn finish(self) -> Result<TriMesh, ObjReadError> {
@@ -179,8 +91,7 @@ impl Parser {
         let count = self.positions.len();
         for (face, corners) in self.faces.iter().enumerate() {
             if let Some(&vertex) = corners.iter().find(|&&vertex| vertex >= count) {
-                let index = i64::try_from(vertex).unwrap_or(i64::MAX).saturating_add(1);
-                let line = self.face_lines[face];
+                let (line, index) = (self.face_lines[face], from_one(vertex));
                 return Err(ObjReadError::MissingVertex { line, face: face + 1, index, count });
             }
         }
@@ -193,10 +104,6 @@ impl Parser {
             other => ObjReadError::Mesh(other),
         })
     }
-}
-
-fn nonzero(text: &str) -> Option<i64> {
-    text.parse().ok().filter(|&index| index != 0)
 }
 
 /// The line of the element that an error is about; of the first such face if there are several.

@@ -6,6 +6,7 @@ use basemesh::TriMesh;
 use glam::DVec3;
 
 use super::error::ObjWriteError;
+use crate::samples::CreasedTessellation;
 use crate::tessellate::Tessellation;
 
 /// Writes the vertices and faces of a mesh, in id order. [`read_obj`](crate::read_obj) returns the
@@ -44,6 +45,29 @@ pub fn write_obj_tessellation(
     for corners in triangles {
         let [a, b, c] = corners.map(|index| index + 1);
         writeln!(out, "f {a}//{a} {b}//{b} {c}//{c}")?;
+    }
+    Ok(())
+}
+
+/// Writes the points and triangles of a tessellation, and a unit normal for each corner: creases
+/// stay sharp.
+///
+/// # Errors
+///
+/// [`ObjWriteError`]; numbers that are not finite are found before anything is written.
+pub fn write_obj_creased(
+    out: &mut dyn Write,
+    tessellation: &CreasedTessellation,
+) -> Result<(), ObjWriteError> {
+    let CreasedTessellation { positions, normals, triangles, triangle_normals } = tessellation;
+    check_finite("position", positions)?;
+    check_finite("normal", normals)?;
+    write_points(out, "v", positions)?;
+    write_points(out, "vn", normals)?;
+    for (corners, normals) in triangles.iter().zip(triangle_normals) {
+        let [a, b, c] = corners.map(|index| index + 1);
+        let [na, nb, nc] = normals.map(|index| index + 1);
+        writeln!(out, "f {a}//{na} {b}//{nb} {c}//{nc}")?;
     }
     Ok(())
 }

@@ -56,18 +56,48 @@ pub enum VtuWriteError {
         /// The name.
         name: String,
     },
-    /// There is not one value per patch.
-    #[error("the cell data '{name}' has {values} values for {cells} patches")]
+    /// There is not one value per patch, cell or point.
+    #[error("the data '{name}' has {values} values for {cells} {of}")]
     CellDataCount {
         /// Name of the cell data.
         name: String,
         /// Number of values.
         values: usize,
-        /// Number of patches.
+        /// Number of elements.
         cells: usize,
+        /// What the elements are.
+        of: &'static str,
+    },
+    /// There is not one normal per point.
+    #[error("there are {normals} normals for {points} points")]
+    NormalCount {
+        /// Number of normals.
+        normals: usize,
+        /// Number of points.
+        points: usize,
+    },
+    /// A cell names a point that does not exist.
+    #[error("cell {cell} uses point {point}, but there are only {count} points")]
+    MissingPoint {
+        /// The cell.
+        cell: usize,
+        /// The missing point.
+        point: usize,
+        /// Number of points.
+        count: usize,
+    },
+    /// A coordinate of a grid is infinite or not a number.
+    #[error("the {what} of point {point} is {value}, which is not finite")]
+    PointNotFinite {
+        /// The point.
+        point: usize,
+        /// Position or normal.
+        what: &'static str,
+        /// Its value.
+        value: DVec3,
     },
     /// VTK cannot read this number as text.
-    #[error("the cell data '{name}' is {value} at patch {cell}; use the binary encoding")]
+    #[error("the data '{name}' is {value} at element {cell}; use the binary encoding")]
     CellDataNotFinite {
         /// Name of the cell data.
         name: String,
@@ -152,6 +182,19 @@ pub enum VtuReadError {
         found: i64,
         /// The type of the first cell, or both.
         expected: &'static str,
+    },
+    /// A cell of a grid that is no triangle or quadrilateral, flat or quadratic.
+    #[error(
+        "cell {cell} has type {vtk_type} and {points} points; expected 5 with 3 (triangle), 9 with \
+         4 (quadrilateral), 22 with 6 or 23 with 8 (quadratic)"
+    )]
+    GridCell {
+        /// The cell.
+        cell: usize,
+        /// Its type.
+        vtk_type: i64,
+        /// Its number of points.
+        points: usize,
     },
     /// A cell of another degree.
     #[error(

@@ -51,9 +51,7 @@ pub fn read_vtu_file<const P: usize>(
 
 fn from_bytes<const P: usize>(bytes: &[u8]) -> Result<VtuSurface<P>, VtuReadError> {
     const { assert!(P >= 3, "a cell has three corners") };
-    let (xml, appended) = appended::split(bytes)?;
-    let text = std::str::from_utf8(xml).map_err(|error| not_text(xml, error))?;
-    let document = Document { appended, ..document::parse(text)? };
+    let document = document(bytes)?;
     refuse_rational(&document)?;
     let points = points(&document)?;
     let kind = cell_kind(&document)?;
@@ -68,6 +66,13 @@ fn from_bytes<const P: usize>(bytes: &[u8]) -> Result<VtuSurface<P>, VtuReadErro
     };
     let (cell_data, skipped) = cell_data(&document)?;
     Ok(VtuSurface { topology, nets, cell_data, skipped })
+}
+
+/// The parts of a file.
+pub(super) fn document(bytes: &[u8]) -> Result<Document<'_>, VtuReadError> {
+    let (xml, appended) = appended::split(bytes)?;
+    let text = std::str::from_utf8(xml).map_err(|error| not_text(xml, error))?;
+    Ok(Document { appended, ..document::parse(text)? })
 }
 
 fn not_text(bytes: &[u8], error: std::str::Utf8Error) -> VtuReadError {
@@ -88,7 +93,7 @@ fn refuse_rational(document: &Document<'_>) -> Result<(), VtuReadError> {
     Ok(())
 }
 
-fn points(document: &Document<'_>) -> Result<Vec<DVec3>, VtuReadError> {
+pub(super) fn points(document: &Document<'_>) -> Result<Vec<DVec3>, VtuReadError> {
     let array =
         document.points.first().ok_or(VtuReadError::Missing { what: "array in <Points>" })?;
     let numbers = array.floats(document)?;
@@ -100,7 +105,7 @@ fn points(document: &Document<'_>) -> Result<Vec<DVec3>, VtuReadError> {
     Ok(points.iter().copied().map(DVec3::from_array).collect())
 }
 
-fn check_count(
+pub(super) fn check_count(
     array: &RawArray<'_>,
     of: &str,
     found: usize,
@@ -113,7 +118,7 @@ fn check_count(
         .error(format!("has {found} {of} where {expected} are announced; the file is damaged")))
 }
 
-fn cell_array<'d, 'a>(
+pub(super) fn cell_array<'d, 'a>(
     document: &'d Document<'a>,
     name: &'static str,
     what: &'static str,
@@ -227,7 +232,9 @@ fn nets<const P: usize>(
     })
 }
 
-fn cell_data(document: &Document<'_>) -> Result<(Vec<CellData>, Vec<String>), VtuReadError> {
+pub(super) fn cell_data(
+    document: &Document<'_>,
+) -> Result<(Vec<CellData>, Vec<String>), VtuReadError> {
     let mut kept = Vec::new();
     let mut skipped: Vec<_> = document.point_data.iter().map(|a| a.name.clone()).collect();
     for array in &document.cell_data {
@@ -242,7 +249,10 @@ fn cell_data(document: &Document<'_>) -> Result<(Vec<CellData>, Vec<String>), Vt
     Ok((kept, skipped))
 }
 
-fn numbers(array: &RawArray<'_>, document: &Document<'_>) -> Result<CellValues, VtuReadError> {
+pub(super) fn numbers(
+    array: &RawArray<'_>,
+    document: &Document<'_>,
+) -> Result<CellValues, VtuReadError> {
     if array.is_float() {
         array.floats(document).map(CellValues::Float64)
     } else {

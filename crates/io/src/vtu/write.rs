@@ -35,7 +35,7 @@ pub fn write_vtu<const P: usize>(
         let (patches, faces) = (nets.len(), topology.face_count());
         return Err(VtuWriteError::PatchCount { patches, faces });
     }
-    check_cell_data(options, nets.len())?;
+    check_values(&options.cell_data, "patches", nets.len(), options.encoding)?;
     let degree = BezierTriangle::<DVec3, P>::DEGREE;
     let lattice = Lattice::new(topology, degree);
     let mut points = lattice.gather(nets)?;
@@ -43,24 +43,42 @@ pub fn write_vtu<const P: usize>(
         points = lattice.sample(nets);
     }
     check_finite(&points, &lattice, topology, degree)?;
-    let connectivity = connectivity(&lattice, topology, degree);
-    write_grid(out, &points, &connectivity, P, options)?;
+    let cells = nets.len();
+    let connectivity = Connectivity {
+        points: connectivity(&lattice, topology, degree),
+        sizes: vec![P; cells],
+        types: vec![options.cells.vtk_type(); cells],
+    };
+    write_whole(out, options.encoding, &points, &connectivity, |out, arrays| {
+        if options.cell_data.is_empty() {
+            return Ok(());
+        }
+        writeln!(out, "<CellData>")?;
+        write_values(out, arrays, &options.cell_data)?;
+        writeln!(out, "</CellData>")
+    })?;
     Ok(())
 }
 
-fn check_cell_data(options: &VtuOptions, cells: usize) -> Result<(), VtuWriteError> {
-    for (at, CellData { name, values }) in options.cell_data.iter().enumerate() {
+/// Checks numbers for each of `count` elements, which are called `of`.
+pub(super) fn check_values(
+    data: &[CellData],
+    of: &'static str,
+    count: usize,
+    encoding: Encoding,
+) -> Result<(), VtuWriteError> {
+    for (at, CellData { name, values }) in data.iter().enumerate() {
         if name.trim() != name || name.is_empty() || name.chars().any(char::is_control) {
             return Err(VtuWriteError::CellDataName { name: name.clone() });
         }
-        if options.cell_data[..at].iter().any(|earlier| earlier.name == *name) {
+        if data[..at].iter().any(|earlier| earlier.name == *name) {
             return Err(VtuWriteError::CellDataTwice { name: name.clone() });
         }
-        if values.len() != cells {
+        if values.len() != count {
             let (name, values) = (name.clone(), values.len());
-            return Err(VtuWriteError::CellDataCount { name, values, cells });
+            return Err(VtuWriteError::CellDataCount { name, values, cells: count, of });
         }
-        if let (Encoding::Ascii, CellValues::Float64(values)) = (options.encoding, values)
+        if let (Encoding::Ascii, CellValues::Float64(values)) = (encoding, values)
             && let Some(cell) = values.iter().position(|value| !value.is_finite())
         {
             let (name, value) = (name.clone(), values[cell]);
@@ -96,19 +114,27 @@ fn connectivity(lattice: &Lattice<'_>, topology: &Topology, degree: usize) -> Ve
     topology.faces().flat_map(|face| order.iter().map(move |&rank| id(face, rank))).collect()
 }
 
-fn to_i64(count: usize) -> i64 {
+pub(super) fn to_i64(count: usize) -> i64 {
     i64::try_from(count).expect("invariant: memory holds fewer than 2^63 points")
 }
 
-fn write_grid(
+/// The points of all cells one after the other, and the size and type of each cell.
+pub(super) struct Connectivity {
+    pub(super) points: Vec<i64>,
+    pub(super) sizes: Vec<usize>,
+    pub(super) types: Vec<u8>,
+}
+
+/// Writes a whole file; `data` writes the sections with data of points and cells.
+pub(super) fn write_whole(
     out: &mut dyn Write,
+    encoding: Encoding,
     points: &[DVec3],
-    connectivity: &[i64],
-    points_per_cell: usize,
-    options: &VtuOptions,
+    connectivity: &Connectivity,
+    data: impl FnOnce(&mut dyn Write, &mut ArrayWriter) -> io::Result<()>,
 ) -> io::Result<()> {
-    let cells = connectivity.len() / points_per_cell;
-    let mut arrays = ArrayWriter::new(options.encoding);
+    let cells = connectivity.sizes.len();
+    let mut arrays = ArrayWriter::new(encoding);
     writeln!(out, r#"<?xml version="1.0"?>"#)?;
     writeln!(
         out,
@@ -116,39 +142,45 @@ fn write_grid(
     )?;
     writeln!(out, "<UnstructuredGrid>")?;
     writeln!(out, r#"<Piece NumberOfPoints="{}" NumberOfCells="{cells}">"#, points.len())?;
-    write_cell_data(out, &mut arrays, options)?;
+    data(out, &mut arrays)?;
     writeln!(out, "<Points>")?;
     let coordinates = points.iter().flat_map(DVec3::to_array);
     let head = ArrayHead { name: "Points", components: 3, count: 3 * points.len(), per_line: 3 };
     arrays.write(out, head, coordinates)?;
     writeln!(out, "</Points>\n<Cells>")?;
-    let per_line = points_per_cell;
-    let head = ArrayHead { per_line, ..ArrayHead::scalars("connectivity", connectivity.len()) };
-    arrays.write(out, head, connectivity.iter().copied())?;
-    let ends = (1..=cells).map(|cell| to_i64(cell * points_per_cell));
-    arrays.write(out, ArrayHead::scalars("offsets", cells), ends)?;
-    let types = std::iter::repeat_n(options.cells.vtk_type(), cells);
-    arrays.write(out, ArrayHead::scalars("types", cells), types)?;
+    write_cells(out, &mut arrays, connectivity)?;
     writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>")?;
     arrays.finish(out)?;
     writeln!(out, "</VTKFile>")
 }
 
-fn write_cell_data(
+fn write_cells(
     out: &mut dyn Write,
     arrays: &mut ArrayWriter,
-    options: &VtuOptions,
+    Connectivity { points, sizes, types }: &Connectivity,
 ) -> io::Result<()> {
-    if options.cell_data.is_empty() {
-        return Ok(());
-    }
-    writeln!(out, "<CellData>")?;
-    for CellData { name, values } in &options.cell_data {
+    let per_line = sizes.first().copied().unwrap_or(1);
+    let head = ArrayHead { per_line, ..ArrayHead::scalars("connectivity", points.len()) };
+    arrays.write(out, head, points.iter().copied())?;
+    let ends = sizes.iter().scan(0, |end, size| {
+        *end += size;
+        Some(to_i64(*end))
+    });
+    arrays.write(out, ArrayHead::scalars("offsets", sizes.len()), ends)?;
+    arrays.write(out, ArrayHead::scalars("types", types.len()), types.iter().copied())
+}
+
+pub(super) fn write_values(
+    out: &mut dyn Write,
+    arrays: &mut ArrayWriter,
+    data: &[CellData],
+) -> io::Result<()> {
+    for CellData { name, values } in data {
         let head = ArrayHead::scalars(name, values.len());
         match values {
             CellValues::Float64(values) => arrays.write(out, head, values.iter().copied())?,
             CellValues::Int64(values) => arrays.write(out, head, values.iter().copied())?,
         }
     }
-    writeln!(out, "</CellData>")
+    Ok(())
 }

@@ -63,7 +63,7 @@ fn badness(surface: &G1Surface, deviations: &FaceMap<FaceDeviation>) -> f64 {
 }
 
 /// Largest distance of every patch in diagonals; one for a folded patch.
-fn errors(surface: &G1Surface, deviations: &FaceMap<FaceDeviation>) -> FaceMap<f64> {
+pub(super) fn errors(surface: &G1Surface, deviations: &FaceMap<FaceDeviation>) -> FaceMap<f64> {
     let size = surface.mesh.diagonal();
     deviations.map(
         |_, face| {

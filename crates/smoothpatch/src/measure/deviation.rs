@@ -86,14 +86,29 @@ pub(crate) fn face_deviations(
     target: &dyn SurfaceTarget,
     known: impl Fn(FaceId) -> Option<FaceDeviation> + Sync,
 ) -> FaceMap<FaceDeviation> {
-    let grid = lattice(GRID);
     FaceMap::from_fn(nets.len(), |face| {
-        known(face).unwrap_or_else(|| face_deviation(&nets[face], target, &grid))
+        known(face).unwrap_or_else(|| compare(sampled(&nets[face], GRID), target))
     })
 }
 
-fn lattice(divisions: usize) -> Vec<Barycentric> {
-    Barycentric::lattice(divisions).collect()
+/// Positions and normals of a patch at a regular grid; the normals are as long as the area element.
+pub(crate) type PatchSamples = Vec<(DVec3, DVec3)>;
+
+fn sampled(net: &SepticTriangle, divisions: usize) -> PatchSamples {
+    Barycentric::lattice(divisions).map(|at| net.point_and_area_normal(at)).collect()
+}
+
+/// [`deviation`] of other patches: `sample` returns those of a face on a grid with so many
+/// divisions.
+pub(crate) fn deviation_of(
+    count: usize,
+    sample: impl Fn(FaceId, usize) -> PatchSamples + Sync,
+    target: &dyn SurfaceTarget,
+    diagonal: f64,
+) -> (Deviation, FaceMap<FaceDeviation>) {
+    let mut faces = FaceMap::from_fn(count, |face| compare(sample(face, GRID), target));
+    let grid = settle_with(&mut faces, sample, target);
+    (summarise(&faces, diagonal, grid), faces)
 }
 
 /// Doubles the divisions for the worst patches until the largest values settle; returns the last
@@ -103,16 +118,23 @@ pub(crate) fn settle(
     nets: &FaceMap<SepticTriangle>,
     target: &dyn SurfaceTarget,
 ) -> usize {
+    settle_with(faces, |face, grid| sampled(&nets[face], grid), target)
+}
+
+fn settle_with(
+    faces: &mut FaceMap<FaceDeviation>,
+    sample: impl Fn(FaceId, usize) -> PatchSamples + Sync,
+    target: &dyn SurfaceTarget,
+) -> usize {
     let mut grid = GRID;
     while grid < FINEST_GRID {
         grid *= 2;
-        let finer = lattice(grid);
         let before = largest(faces);
         *faces = faces.map(|face, coarse| {
             if coarse.max < CANDIDATES * before.0 && coarse.max_normal < CANDIDATES * before.1 {
                 return *coarse;
             }
-            coarse.refined_by(&face_deviation(&nets[face], target, &finer))
+            coarse.refined_by(&compare(sample(face, grid), target))
         });
         let after = largest(faces);
         if after.0 <= SETTLED * before.0 && after.1 <= SETTLED * before.1 {
@@ -144,13 +166,8 @@ impl FaceDeviation {
     }
 }
 
-fn face_deviation(
-    net: &SepticTriangle,
-    target: &dyn SurfaceTarget,
-    parameters: &[Barycentric],
-) -> FaceDeviation {
-    let (points, normals): (Vec<DVec3>, Vec<DVec3>) =
-        parameters.iter().map(|&at| net.point_and_area_normal(at)).unzip();
+fn compare(samples: PatchSamples, target: &dyn SurfaceTarget) -> FaceDeviation {
+    let (points, normals): (Vec<DVec3>, Vec<DVec3>) = samples.into_iter().unzip();
     let mut feet: Vec<Option<Foot>> = vec![None; points.len()];
     target.feet(&points, &mut feet);
     let mut result = FaceDeviation {

@@ -1,4 +1,4 @@
-//! Random edits: other valences and other shapes, but no slivers.
+//! Random edits: other valences and other shapes.
 
 use basemesh::{EdgeId, HalfedgeId, TriMesh, VertexId, VertexMap, triangle_quality};
 use glam::DVec3;
@@ -10,6 +10,8 @@ pub enum Edit {
     Flip(usize),
     /// A new vertex of valence four in the middle of the edge.
     Split(usize),
+    /// The higher end is merged into the lower one; no quality is kept.
+    Collapse(usize),
 }
 
 /// Fewest edges of a vertex after an edit.
@@ -24,6 +26,7 @@ pub fn apply_edits(mesh: TriMesh, edits: &[Edit], min_quality: f64) -> TriMesh {
         let edited = match *edit {
             Edit::Flip(number) => flip(&mesh, edge(number), min_quality),
             Edit::Split(number) => split(&mesh, edge(number), min_quality),
+            Edit::Collapse(number) => collapse(&mesh, edge(number)),
         };
         edited.unwrap_or(mesh)
     })
@@ -61,6 +64,27 @@ fn split(mesh: &TriMesh, edge: EdgeId, min_quality: f64) -> Option<TriMesh> {
     let m = mesh.positions().len();
     let faces = [[a, m, c], [m, b, c], [b, m, d], [m, a, d]];
     replace_faces(mesh, Some(middle), halfedges, &faces, min_quality)
+}
+
+/// Only where the result has the same topology and every vertex at least three edges.
+fn collapse(mesh: &TriMesh, edge: EdgeId) -> Option<TriMesh> {
+    let t = mesh.topology();
+    let (_, [a, b, c, d]) = quadrilateral(mesh, edge)?;
+    let neighbours = |v| t.fan(v).map(|h| t.target(h));
+    let common = neighbours(a).filter(|&v| neighbours(b).any(|w| v == w)).count();
+    if common != 2 || t.valence(a) + t.valence(b) < 7 || [c, d].iter().any(|&v| t.valence(v) < 4) {
+        return None;
+    }
+    let [kept, gone] = if a < b { [a, b] } else { [b, a] };
+    let renamed = |v: usize| match v {
+        v if v == gone.index() => kept.index(),
+        v => v - usize::from(v > gone.index()),
+    };
+    let mut positions = mesh.positions().as_slice().to_vec();
+    positions.remove(gone.index());
+    let faces = mesh.face_indices().into_iter().map(|face| face.map(renamed));
+    let faces: Vec<[usize; 3]> = faces.filter(|[p, q, r]| p != q && q != r && r != p).collect();
+    TriMesh::new(positions, &faces).ok()
 }
 
 /// The mesh with the faces of two half-edges replaced, if all new faces are good and turn by less

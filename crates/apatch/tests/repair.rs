@@ -1,0 +1,90 @@
+//! Meshes whose hull overlaps: repaired, or each fault reported.
+#![allow(clippy::print_stdout, reason = "figures, for runs with --nocapture")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
+
+mod common;
+
+use apatch::basemesh::TriMesh;
+use apatch::glam::DVec3;
+use apatch::rational::{Normals, RationalSurface, RepairSettings, Settings, Side};
+use common::{double_torus, given, l_block, noisy_sphere};
+
+/// Edge tetrahedra that are not valid, straight from the surface.
+fn invalid(surface: &RationalSurface) -> usize {
+    let topology = surface.mesh().topology();
+    let sides = topology.edges().flat_map(|e| surface.edge(e).sides);
+    sides.flatten().filter(|side| !side.is_valid()).count()
+}
+
+fn check(name: &str, mesh: &TriMesh) {
+    let plain = Settings { repair: RepairSettings::NONE, ..Settings::default() };
+    let before = RationalSurface::new(mesh.clone(), Normals::Estimated, &plain).unwrap();
+    assert!(invalid(&before) > 0, "{name} needs no repair: the test shows nothing");
+    assert_eq!(before.report().invalid_edges.len(), invalid(&before), "{name}: all reported");
+    let after =
+        RationalSurface::new(mesh.clone(), Normals::Estimated, &Settings::default()).unwrap();
+    let report = after.report();
+    println!(
+        "{name}: {} -> {}, {:?}, {} Loop steps, {} moved",
+        invalid(&before),
+        invalid(&after),
+        report.normals,
+        report.loop_steps,
+        report.moved_apices
+    );
+    assert_eq!(invalid(&after), 0, "{name}: {report:?}");
+    assert!(report.is_clean(), "{name}: {report:?}");
+    let (bad, all) = after.count_bad_transversals(30);
+    assert_eq!(bad, 0, "{name}: of {all}");
+}
+
+#[test]
+fn noisy_spheres() {
+    for seed in 1..4 {
+        check("20 %", &noisy_sphere(0.2, seed));
+        check("30 %", &noisy_sphere(0.3, seed));
+    }
+}
+
+#[test]
+fn voxel_double_torus() {
+    let mesh = double_torus();
+    assert_eq!(mesh.topology().euler_characteristic(), -2, "genus 2");
+    check("double torus", &mesh);
+}
+
+#[test]
+fn l_shaped_block() {
+    check("L block", &l_block());
+}
+
+/// Given normals belong to given vertices: only apices move, and what remains is reported.
+#[test]
+fn given_normals_and_their_mesh_are_kept() {
+    let mesh = noisy_sphere(0.3, 2);
+    let normals = given(&mesh, DVec3::normalize);
+    let surface = RationalSurface::new(mesh.clone(), normals, &Settings::default()).unwrap();
+    assert_eq!(surface.mesh(), &mesh);
+    for (v, p) in mesh.positions().iter() {
+        assert_eq!(surface.normals()[v], p.normalize(), "vertex {v}");
+    }
+    assert_eq!(surface.report().invalid_edges.len(), invalid(&surface), "all reported");
+    for found in &surface.report().invalid_edges {
+        assert!(!(found.angle > 0.0 && found.angle < std::f64::consts::PI), "{found:?}");
+    }
+}
+
+#[test]
+fn apices_are_on_their_sides() {
+    let surface =
+        RationalSurface::new(double_torus(), Normals::Estimated, &Settings::default()).unwrap();
+    for face in surface.mesh().topology().faces() {
+        let [a, b, c] = surface.mesh().triangle(face);
+        let normal = (b - a).cross(c - a);
+        for side in Side::BOTH {
+            if let Some(t) = surface.face_tetrahedron(face, side) {
+                assert!(side.sign() * (t.corners[3] - a).dot(normal) > 0.0, "face {face}");
+            }
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! The files that are written: checked before the long work, written whole or not at all.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf, absolute};
+
+use anyhow::bail;
+use serde::Serialize;
+use smoothpatch::io::{WriteError, write_atomically};
+
+/// Where results go.
+pub(crate) struct OutputFiles {
+    pub(crate) surfaces: Vec<(Format, PathBuf)>,
+    pub(crate) report: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Vtu,
+    Obj,
+}
+
+/// A file that is complete.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(crate) struct Written {
+    pub(crate) file: PathBuf,
+    pub(crate) bytes: u64,
+}
+
+impl OutputFiles {
+    /// What the options ask for; only names are looked at.
+    pub(crate) fn new(surfaces: &[PathBuf], report: Option<&Path>) -> anyhow::Result<Self> {
+        let surfaces = surfaces
+            .iter()
+            .map(|path| Ok((format_of(path)?, path.clone())))
+            .collect::<anyhow::Result<Vec<_>>>()?;
+        if let Some(path) = report
+            && extension(path) != "json"
+        {
+            bail!("--report {}: the name of a report must end with .json", path.display());
+        }
+        Ok(Self { surfaces, report: report.map(Path::to_owned) })
+    }
+
+    /// One table, which is written by name alone.
+    pub(crate) fn table(path: &Path) -> anyhow::Result<Self> {
+        if extension(path) != "csv" {
+            bail!("-o {}: the name of a table must end with .csv", path.display());
+        }
+        Ok(Self { surfaces: Vec::new(), report: Some(path.to_owned()) })
+    }
+
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.surfaces.iter().map(|(_, path)| path).chain(&self.report)
+    }
+
+    /// Checks that every file can be written.
+    pub(crate) fn check_places(&self) -> anyhow::Result<()> {
+        Ok(self.files().try_for_each(|path| try_to_write(path))?)
+    }
+
+    /// Checks that every file is written once and is no input.
+    pub(crate) fn check_distinct(&self, inputs: Vec<&Path>) -> anyhow::Result<()> {
+        let mut taken = inputs.into_iter().map(absolute).collect::<Result<Vec<_>, _>>()?;
+        let inputs = taken.len();
+        for path in self.files() {
+            let place = absolute(path)?;
+            match taken.iter().position(|other| *other == place) {
+                Some(at) if at < inputs => {
+                    bail!("{} is read; it would be overwritten with a result", path.display())
+                }
+                Some(_) => bail!("{} would be written twice", path.display()),
+                None => {}
+            }
+            taken.push(place);
+        }
+        Ok(())
+    }
+}
+
+/// Writes one file whole, or leaves everything as it was.
+pub(crate) fn write_file(
+    path: &Path,
+    contents: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> anyhow::Result<Written> {
+    write_atomically(path, contents)?;
+    Ok(Written { file: path.to_owned(), bytes: path.metadata()?.len() })
+}
+
+/// Everything that writing does before and after the contents are made.
+fn try_to_write(path: &Path) -> Result<(), WriteError> {
+    let mut open = false;
+    let outcome = write_atomically(path, |_| {
+        open = true;
+        Err(io::Error::other("only a trial"))
+    });
+    if open { Ok(()) } else { outcome }
+}
+
+fn format_of(path: &Path) -> anyhow::Result<Format> {
+    match extension(path).as_str() {
+        "vtu" => Ok(Format::Vtu),
+        "obj" => Ok(Format::Obj),
+        _ => bail!(
+            "-o {}: the name must end with .vtu (patches) or .obj (triangles)",
+            path.display()
+        ),
+    }
+}
+
+pub(crate) fn extension(path: &Path) -> String {
+    path.extension().map(|text| text.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+}

@@ -1,0 +1,145 @@
+//! The closest point of one patch.
+
+use bezier_core::PatchJet;
+use glam::{DVec2, DVec3};
+
+use super::bounds::Bounds;
+use super::piece::{Piece, closest_weights};
+use crate::surface::Patch;
+
+/// Relative to the size of a patch: pieces that might be closer by less are not looked at.
+const RESOLUTION: f64 = 1e-10;
+/// No piece is smaller than this; its distance to its flat triangle is below round-off.
+const SMALLEST_LEG: f64 = 1.0 / (1 << 26) as f64;
+
+/// Parameters and distance of the point of a patch that is closest to `p`, if it is not farther than
+/// `limit`.
+pub(super) fn closest(
+    patch: &Patch,
+    bounds: &Bounds,
+    p: DVec3,
+    limit: f64,
+) -> Option<([f64; 2], f64)> {
+    let mut search = Search { patch, bounds, p, best: limit, at: None, slack: 0.0 };
+    let mut open: Vec<(f64, Piece)> = Vec::with_capacity(16);
+    for piece in Piece::whole(patch) {
+        let [a, b, c] = piece.points;
+        search.slack = RESOLUTION * a.distance(b).max(b.distance(c)).max(c.distance(a));
+        open.push((search.lower_bound(&piece), piece));
+    }
+    open.sort_by(|a, b| b.0.total_cmp(&a.0));
+    while let Some((lower, piece)) = open.pop() {
+        let slack = if search.at.is_some() { search.slack } else { 0.0 };
+        if lower + slack > search.best || search.settles(&piece) || piece.leg < SMALLEST_LEG {
+            continue;
+        }
+        let mut parts = piece.parts(patch).map(|part| (search.lower_bound(&part), part));
+        // the most promising one last, to be taken first
+        parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        open.extend(parts);
+    }
+    search.at.map(|at| (at.to_array(), search.best))
+}
+
+struct Search<'a> {
+    patch: &'a Patch,
+    bounds: &'a Bounds,
+    p: DVec3,
+    best: f64,
+    at: Option<DVec2>,
+    slack: f64,
+}
+
+impl Search<'_> {
+    /// No point of the piece is closer.
+    fn lower_bound(&self, piece: &Piece) -> f64 {
+        let [a, b, c] = piece.points;
+        let [s, t, u] = closest_weights(self.p, piece.points);
+        (a * s + b * t + c * u).distance(self.p) - piece.bulge(self.bounds)
+    }
+
+    fn offer(&mut self, at: DVec2, point: DVec3) {
+        let distance = point.distance(self.p);
+        if distance < self.best || (self.at.is_none() && distance <= self.best) {
+            (self.best, self.at) = (distance, Some(at));
+        }
+    }
+
+    /// Looks for the minimum of `f = |x - p|²/2` in the piece; whether it is certainly found: `f` is
+    /// convex there, and `f(q) >= f(at) + ∇f(at)·(q - at)` leaves no room.
+    fn settles(&mut self, piece: &Piece) -> bool {
+        let centre = piece.centre();
+        let convex = self.is_convex(piece, &self.patch.jet(centre.to_array()));
+        let [s, t, u] = closest_weights(self.p, piece.points);
+        let [a, b, c] = piece.corners;
+        let mut at = a * s + b * t + c * u;
+        if !convex {
+            self.offer(at, self.patch.point(at.to_array()));
+            return false;
+        }
+        for _ in 0..10 {
+            let jet = self.patch.jet(at.to_array());
+            let d = jet.point - self.p;
+            self.offer(at, jet.point);
+            let gradient = DVec2::new(d.dot(jet.du), d.dot(jet.dv));
+            let decrease = piece.corners.map(|q| -gradient.dot(q - at));
+            let gap = decrease.into_iter().fold(0.0, f64::max);
+            // round-off of the gradient
+            let size = jet.du.length().max(jet.dv.length()) * piece.leg;
+            if gap <= 8.0 * f64::EPSILON * size * (d.length() + jet.point.length() + size) {
+                return true;
+            }
+            at = newton_step(piece, at, gradient, hessian(&jet, d));
+        }
+        false
+    }
+
+    /// Whether `f` is convex on the piece: its Hessian at the centre is larger than it can change.
+    fn is_convex(&self, piece: &Piece, jet: &PatchJet) -> bool {
+        let d = jet.point - self.p;
+        let [huu, huv, hvv] = hessian(jet, d);
+        let smallest = 0.5 * (huu + hvv) - (0.5 * (huu - hvv)).hypot(huv);
+        let Bounds { second, third, jump } = *self.bounds;
+        let radius = piece.radius();
+        let slope = (jet.du.length_squared() + jet.dv.length_squared()).sqrt();
+        let slope_change = second * radius;
+        let moved = (slope + slope_change) * radius;
+        smallest
+            > 2.0 * slope * slope_change + moved * second + d.length() * (third * radius + jump)
+    }
+}
+
+/// Second derivatives `[uu, uv, vv]` of `|x - p|²/2`, `d = x - p`.
+fn hessian(jet: &PatchJet, d: DVec3) -> [f64; 3] {
+    [
+        jet.du.length_squared() + d.dot(jet.duu),
+        jet.du.dot(jet.dv) + d.dot(jet.duv),
+        jet.dv.length_squared() + d.dot(jet.dvv),
+    ]
+}
+
+/// The minimum in the piece of the quadratic function with this gradient and Hessian at `at`.
+fn newton_step(piece: &Piece, at: DVec2, gradient: DVec2, [huu, huv, hvv]: [f64; 3]) -> DVec2 {
+    let times = |v: DVec2| DVec2::new(huu * v.x + huv * v.y, huv * v.x + hvv * v.y);
+    let determinant = huu * hvv - huv * huv;
+    let inner = at
+        - DVec2::new(hvv * gradient.x - huv * gradient.y, huu * gradient.y - huv * gradient.x)
+            / determinant;
+    let [a, b, c] = piece.corners;
+    // all pieces have the same shape: inside if on the inner side of each edge
+    let inside = |from: DVec2, to: DVec2| {
+        (to - from).perp_dot(inner - from) * (b - a).perp_dot(c - a) >= 0.0
+    };
+    if determinant > 0.0 && inside(a, b) && inside(b, c) && inside(c, a) {
+        return inner;
+    }
+    let model = |q: DVec2| gradient.dot(q - at) + 0.5 * (q - at).dot(times(q - at));
+    let on_edge = |from: DVec2, to: DVec2| {
+        let e = to - from;
+        let (slope, bend) = (e.dot(gradient + times(from - at)), e.dot(times(e)));
+        let t = if bend > 0.0 { (-slope / bend).clamp(0.0, 1.0) } else { 0.0 };
+        if t == 1.0 { to } else { from + e * t }
+    };
+    let best = [on_edge(a, b), on_edge(b, c), on_edge(c, a)];
+    best.into_iter().min_by(|p, q| model(*p).total_cmp(&model(*q))).expect("invariant: three edges")
+}

@@ -1,0 +1,153 @@
+//! Boxes, and pieces of patches.
+
+use glam::{DVec2, DVec3};
+
+use super::bounds::Bounds;
+use super::ray::Ray;
+use crate::surface::Patch;
+
+/// A box with sides parallel to the axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// Lowest coordinates.
+    pub low: DVec3,
+    /// Highest coordinates.
+    pub high: DVec3,
+}
+
+impl Aabb {
+    /// The smallest box around points.
+    pub(super) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
+        let empty = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+        points.into_iter().fold(empty, |all, p| all.with(&Self { low: p, high: p }))
+    }
+
+    pub(super) fn with(&self, other: &Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    pub(super) fn grown(&self, by: f64) -> Self {
+        Self { low: self.low - by, high: self.high + by }
+    }
+
+    pub(super) fn size(&self) -> f64 {
+        self.low.distance(self.high)
+    }
+
+    /// Distance from a point; zero inside.
+    #[inline]
+    pub(super) fn distance(&self, p: DVec3) -> f64 {
+        (self.low - p).max(p - self.high).max(DVec3::ZERO).length()
+    }
+
+    /// Where a ray enters, at `from` at the earliest; `None` if it does not before `to`.
+    #[inline]
+    pub(super) fn entry(&self, ray: &Ray, from: f64, to: f64) -> Option<f64> {
+        let (mut first, mut last) = (from, to);
+        for axis in 0..3 {
+            let (o, d) = (ray.origin[axis], ray.direction[axis]);
+            if d == 0.0 {
+                if o < self.low[axis] || o > self.high[axis] {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = ((self.low[axis] - o) / d, (self.high[axis] - o) / d);
+            first = first.max(a.min(b));
+            last = last.min(a.max(b));
+        }
+        // two roundings each
+        let slack = 4.0 * f64::EPSILON * first.abs().max(last.abs());
+        (first <= last + slack).then_some(first)
+    }
+}
+
+/// A right triangle in parameter space, with legs `2^-level`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub(super) corners: [DVec2; 3],
+    pub(super) points: [DVec3; 3],
+    /// Length of the legs.
+    pub(super) leg: f64,
+}
+
+impl Piece {
+    /// The pieces that make up a patch: one or two.
+    pub(super) fn whole(patch: &Patch) -> impl Iterator<Item = Self> {
+        let (x, y, zero, one) = (DVec2::X, DVec2::Y, DVec2::ZERO, DVec2::ONE);
+        let second = matches!(patch, Patch::Quad(_)).then_some([x, one, y]);
+        [Some([zero, x, y]), second].into_iter().flatten().map(|corners| Self {
+            corners,
+            points: corners.map(|at| patch.point(at.to_array())),
+            leg: 1.0,
+        })
+    }
+
+    /// Four pieces of half the size.
+    pub(super) fn parts(&self, patch: &Patch) -> [Self; 4] {
+        let [a, b, c] = self.corners;
+        let middles = [(b + c) * 0.5, (c + a) * 0.5, (a + b) * 0.5];
+        let [p, q, r] = self.points;
+        let [pm, qm, rm] = middles.map(|at| patch.point(at.to_array()));
+        let [am, bm, cm] = middles;
+        let part = |corners, points| Self { corners, points, leg: self.leg * 0.5 };
+        [
+            part([a, cm, bm], [p, rm, qm]),
+            part([cm, b, am], [rm, q, pm]),
+            part([bm, am, c], [qm, pm, r]),
+            part([am, bm, cm], [pm, qm, rm]),
+        ]
+    }
+
+    /// How far the piece may be from the flat triangle of its corners: for a function with second
+    /// derivatives up to `M` it is `½ M Σ b_i b_j |e_ij|²` at most, and the sum is at most half the
+    /// square of the leg.
+    pub(super) fn bulge(&self, bounds: &Bounds) -> f64 {
+        0.25 * bounds.second * self.leg * self.leg
+    }
+
+    pub(super) fn centre(&self) -> DVec2 {
+        (self.corners[0] + self.corners[1] + self.corners[2]) / 3.0
+    }
+
+    /// Greatest distance of the parameters from the centre: `√5/3` legs.
+    pub(super) fn radius(&self) -> f64 {
+        0.7454 * self.leg
+    }
+
+    /// The corner parameters' convex combination closest to a parameter.
+    pub(super) fn nearest_parameter(&self, at: DVec2) -> DVec2 {
+        let [a, b, c] = self.corners;
+        let flat = [a, b, c].map(|q| q.extend(0.0));
+        let weights = closest_weights(at.extend(0.0), flat);
+        a * weights[0] + b * weights[1] + c * weights[2]
+    }
+}
+
+/// Barycentric weights of the point of a flat triangle closest to `p`.
+pub(super) fn closest_weights(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (g11, g12, g22) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
+    let (r1, r2) = (ab.dot(ap), ac.dot(ap));
+    let determinant = g11 * g22 - g12 * g12;
+    if determinant > 0.0 {
+        let (s, t) = ((g22 * r1 - g12 * r2) / determinant, (g11 * r2 - g12 * r1) / determinant);
+        if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
+            return [1.0 - s - t, s, t];
+        }
+    }
+    let on = |from: DVec3, to: DVec3| {
+        let d = to - from;
+        let square = d.length_squared();
+        let t = if square > 0.0 { (d.dot(p - from) / square).clamp(0.0, 1.0) } else { 0.0 };
+        (t, (from + d * t).distance_squared(p))
+    };
+    let ((t0, d0), (t1, d1), (t2, d2)) = (on(b, c), on(c, a), on(a, b));
+    if d0 <= d1 && d0 <= d2 {
+        [0.0, 1.0 - t0, t0]
+    } else if d1 <= d2 {
+        [t1, 0.0, 1.0 - t1]
+    } else {
+        [1.0 - t2, t2, 0.0]
+    }
+}

@@ -1,0 +1,22 @@
+//! Directions.
+
+use glam::DVec3;
+
+/// `v` with length one; `None` if it is zero or not finite.
+#[inline]
+pub(crate) fn unit(v: DVec3) -> Option<DVec3> {
+    let squared = v.length_squared();
+    // scaling by a power of two changes no bit
+    if (1e-200..=1e200).contains(&squared) {
+        return Some(v / squared.sqrt());
+    }
+    // the square may over- or underflow, the quotient does not
+    let largest = v.abs().max_element();
+    (largest > 0.0 && v.is_finite()).then(|| (v / largest).normalize())
+}
+
+/// Angle between two vectors, in [0, π]; zero if one of them is zero.
+#[inline]
+pub(crate) fn angle(a: DVec3, b: DVec3) -> f64 {
+    a.cross(b).length().atan2(a.dot(b))
+}

@@ -1,0 +1,191 @@
+//! Statements that hold exactly, or to round-off.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
+
+mod common;
+
+use common::{Random, SPHERE, TORUS, build};
+use nagata::basemesh::{FaceId, VertexId};
+use nagata::bezier_core::{Barycentric, Corner, LocalEdge};
+use nagata::glam::DVec3;
+use nagata::{
+    Apex, EdgeCurve, EdgeNormals, EdgeSettings, NagataQuad, NagataSurface, NagataTriangle, Patch,
+    PolygonMesh, Settings, curvature_parameter,
+};
+
+#[test]
+fn reversed_edges_have_the_same_bits() {
+    let mut random = Random(3);
+    for settings in [EdgeSettings::default(), EdgeSettings::PUBLISHED] {
+        for _ in 0..2000 {
+            let (d, a, b) = (random.vector(), random.unit(), random.unit());
+            let forward = EdgeNormals { start: &[a], end: &[b] };
+            let backward = EdgeNormals { start: &[b], end: &[a] };
+            let one = curvature_parameter(d, forward, &settings);
+            assert_eq!(one, curvature_parameter(-d, backward, &settings), "{d} {a} {b}");
+            let cubic = EdgeCurve::cubic(d, forward, &settings);
+            let reversed = EdgeCurve::cubic(-d, backward, &settings).reversed();
+            assert_eq!(cubic, reversed, "{d} {a} {b}");
+        }
+    }
+}
+
+/// The point of a patch at parameter `t` of the side that starts at `corner`.
+fn on_side(patch: &Patch, corner: usize, t: f64) -> DVec3 {
+    let at = || Barycentric::on_edge(LocalEdge::starting_at(Corner::ALL[corner]), t);
+    match patch {
+        Patch::Triangle(patch) => patch.point(at()),
+        Patch::TangentPlane(patch) => patch.point(at()),
+        Patch::Quad(patch) => {
+            patch.point([[t, 0.0], [1.0, t], [1.0 - t, 1.0], [0.0, 1.0 - t]][corner])
+        }
+    }
+}
+
+fn no_cracks(surface: &NagataSurface) {
+    let mesh = surface.mesh();
+    for edge in mesh.edges() {
+        // halves and eighths: `1 - t` is exact
+        for t in [0.0, 0.125, 0.5, 0.75, 1.0] {
+            let expected = surface.edge_point(edge, t);
+            for side in mesh.sides_at(edge) {
+                let t = if mesh.runs_forward(side) { t } else { 1.0 - t };
+                let got = on_side(&surface.patch(side.face), side.corner, t);
+                assert_eq!(got, expected, "{edge:?} {side:?} {t}");
+            }
+        }
+    }
+}
+
+#[test]
+fn neighbours_agree_bit_for_bit() {
+    let waves = |x: f64, y: f64| (3.0 * x).sin() * (2.0 * y).cos() * 0.5;
+    let meshes = [
+        common::sphere(3).mesh(),
+        common::torus(6, 3, true).mesh(),
+        common::torus(12, 6, false).mesh(),
+        common::graph(9, waves, 5).mesh(),
+    ];
+    for mesh in meshes {
+        // any normals: edges bend wildly and limits act
+        let mut random = Random(11);
+        let normals: Vec<DVec3> = mesh.vertices().map(|_| random.unit()).collect();
+        let normals = nagata::CornerNormals::per_vertex(&mesh, &normals).unwrap();
+        for settings in [Settings::position(), Settings::published(), Settings::tangent_plane()] {
+            if mesh.is_triangular() || settings == Settings::position() {
+                no_cracks(&build(&mesh, &normals, settings));
+            }
+        }
+    }
+}
+
+#[test]
+fn creases_and_sheets_do_not_crack() {
+    let mesh = common::cylinder(12, 2, true).mesh();
+    let normals = common::cylinder_normals(&mesh, 2, 12);
+    let fins = fins();
+    let estimated = nagata::CornerNormals::estimated(&fins, 0.5);
+    for settings in [Settings::position(), Settings::tangent_plane()] {
+        no_cracks(&build(&mesh, &normals, settings));
+        no_cracks(&build(&fins, &estimated, settings));
+    }
+}
+
+/// Three sheets that meet in one edge.
+fn fins() -> PolygonMesh {
+    let positions = vec![
+        DVec3::ZERO,
+        DVec3::new(0.1, 0.0, 1.0),
+        DVec3::new(1.0, 0.0, 0.4),
+        DVec3::new(-0.5, 0.8, 0.6),
+        DVec3::new(-0.5, -0.9, 0.5),
+    ];
+    PolygonMesh::new(positions, &[[0, 1, 2], [0, 1, 3], [1, 0, 4]]).unwrap()
+}
+
+#[test]
+fn planes_stay_planes() {
+    let mut random = Random(5);
+    for _ in 0..200 {
+        let n = random.unit();
+        let (u, v) = n.any_orthonormal_pair();
+        let mut point = || u * random.next(-1.0, 1.0) + v * random.next(-1.0, 1.0);
+        let corners = [point(), point(), point(), point()];
+        let quad = NagataQuad::from_normals(corners, [n; 4], &EdgeSettings::default());
+        let off = |p: DVec3| n.dot(p).abs() <= 4.0 * f64::EPSILON;
+        assert!(off(quad.point([0.3, 0.6])), "{quad:?}");
+        // chords are in the plane up to round-off, and so straight up to round-off
+        assert!(quad.curvature.iter().all(|c| c.length() <= 4.0 * f64::EPSILON), "{quad:?}");
+        let [a, b, c, _] = corners;
+        let triangle = NagataTriangle::from_normals([a, b, c], [n; 3], &EdgeSettings::default());
+        assert!(off(triangle.point(Barycentric::new(0.2, 0.5))), "{triangle:?}");
+    }
+}
+
+#[test]
+fn cones_with_face_normals_are_exact_over_their_base_arc() {
+    let k = 3;
+    let mesh = common::cone(k).mesh();
+    let apex = mesh.position(VertexId::new(0));
+    for choice in [Apex::FaceNormals, Apex::Axis] {
+        let normals = common::cone_normals(&mesh, k, choice);
+        let surface = build(&mesh, &normals, Settings::position());
+        for face in (0..6 * k).map(FaceId::new) {
+            let Patch::Triangle(patch) = surface.patch(face) else { panic!("not C0") };
+            // rulings: x = apex + (base point - apex) s², so the apex is reached with speed zero
+            for at in Barycentric::lattice(6) {
+                let s = 1.0 - at.u;
+                let t = if s > 0.0 { at.w / s } else { 0.5 };
+                let base = patch.point(Barycentric::from_array([0.0, 1.0 - t, t]));
+                let expected = apex + (base - apex) * (s * s);
+                let got = patch.point(at);
+                assert!(got.distance(expected) <= 1e-12, "{choice:?} {got} {expected}");
+            }
+            assert_eq!(patch.corner_normal(Corner::First), None, "the apex is singular");
+            assert!(patch.normal(Barycentric::at(Corner::First)).is_some(), "but has a direction");
+        }
+    }
+}
+
+#[test]
+fn exports_are_the_same_patches() {
+    let mesh = common::torus(8, 4, true).mesh();
+    let surface = build(&mesh, &common::smooth(&mesh, &TORUS), Settings::position());
+    for face in mesh.faces() {
+        let Patch::Triangle(patch) = surface.patch(face) else { panic!("not C0") };
+        let nodes = patch.mid_side_nodes();
+        for at in Barycentric::lattice(5) {
+            let p = patch.point(at);
+            assert!(p.distance(patch.bezier().eval(at)) <= 8.0 * f64::EPSILON, "{p}");
+            // the shape functions of the six-node triangle
+            let b = at.to_array();
+            let six: DVec3 = (0..3)
+                .map(|i| {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    patch.corners[i] * (b[i] * (2.0 * b[i] - 1.0)) + nodes[i] * (4.0 * b[j] * b[k])
+                })
+                .sum();
+            assert!(p.distance(six) <= 16.0 * f64::EPSILON, "{p} {six}");
+        }
+    }
+}
+
+#[test]
+fn batches_agree_with_single_points() {
+    let mesh = common::sphere(2).mesh();
+    let surface = build(&mesh, &common::smooth(&mesh, &SPHERE), Settings::position());
+    let Patch::Triangle(triangle) = surface.patch(FaceId::new(5)) else { panic!("not C0") };
+    let mut points = vec![DVec3::ZERO; 45];
+    triangle.sample(8, &mut points);
+    for (point, at) in points.iter().zip(Barycentric::lattice(8)) {
+        assert!(point.distance(triangle.point(at)) <= 8.0 * f64::EPSILON, "{at:?}");
+    }
+    let mesh = common::torus(8, 4, false).mesh();
+    let surface = build(&mesh, &common::smooth(&mesh, &TORUS), Settings::position());
+    let Patch::Quad(quad) = surface.patch(FaceId::new(3)) else { panic!("no quadrilateral") };
+    let mut points = vec![DVec3::ZERO; 25];
+    quad.sample(4, &mut points);
+    for (s, point) in points.iter().enumerate() {
+        let at = [s / 5, s % 5].map(|k| k as f64 / 4.0);
+        assert!(point.distance(quad.point(at)) <= 32.0 * f64::EPSILON, "{at:?}");
+    }
+}

@@ -1,0 +1,17 @@
+//! The other story: from a mesh with normals to a curved surface, nothing fitted.
+//!
+//! ```text
+//! Polygons ──mesh──> PolygonMesh ──normals──> CornerNormals ──> NagataSurface ──report──> files
+//! ```
+
+#[cfg(feature = "io")]
+mod files;
+#[cfg(feature = "io")]
+mod from_polygons;
+mod report;
+
+#[cfg(feature = "io")]
+pub use files::{CurvedGrid, curved_grid, flat_gap, polygons, samples};
+#[cfg(feature = "io")]
+pub use from_polygons::{NagataError, NormalSource, from_polygons};
+pub use report::{EdgeFlaw, NagataFigures, NagataReport, report};
