@@ -7,5 +7,6 @@ mod fit;
 mod help;
 mod nagata;
 mod nagata_bad_input;
+mod query;
 mod shapes;
 mod workplace;
