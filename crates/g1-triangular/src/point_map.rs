@@ -47,3 +47,19 @@ impl<const OUT: usize> PointMap<OUT> {
         combined
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_and_remainders() {
+        let weight = |out: usize, point: usize| (out + 1) as f64 - 2.0 * point as f64;
+        let points = [DVec3::X, DVec3::new(1.0, 2.0, -4.0), DVec3::new(0.5, 0.0, 3.0)];
+        let combined = PointMap::<6>::new(points.len(), weight).apply(&points);
+        for (out, got) in combined.into_iter().enumerate() {
+            let terms = points.iter().enumerate().map(|(j, &p)| p * weight(out, j));
+            assert_eq!(got, terms.sum::<DVec3>(), "combination {out}");
+        }
+    }
+}

@@ -72,3 +72,45 @@ impl Reflection {
         image
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn gradients() -> [Vector; 2] {
+        [[0.3, 0.0, -1.0, 2.0, 0.5, 0.1, 0.0], [0.0, -0.2, -1.1, 1.9, 0.6, 0.0, 0.4]]
+            .map(Vector::from)
+    }
+
+    #[test]
+    fn directions_are_orthonormal_and_keep_the_conditions() {
+        let gradients = gradients();
+        let null_space = NullSpace::of(&gradients);
+        let directions: [Vector; 5] = std::array::from_fn(|i| null_space.direction(i));
+        for (i, a) in directions.iter().enumerate() {
+            for gradient in &gradients {
+                assert!(gradient.dot(a).abs() <= 1e-15, "direction {i} changes a condition");
+            }
+            for (j, b) in directions.iter().enumerate() {
+                let expected = if i == j { 1.0 } else { 0.0 };
+                assert!((a.dot(b) - expected).abs() <= 1e-15, "directions {i} and {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn smallest_solutions() {
+        let [a, b] = gradients();
+        let x = smallest_solution(&[a, b], [0.5, -2.0]);
+        assert!((a.dot(&x) - 0.5).abs() <= 1e-13 && (b.dot(&x) + 2.0).abs() <= 1e-13, "{x}");
+        let null_space = NullSpace::of(&[a, b]);
+        for i in 0..5 {
+            let beside = null_space.direction(i).dot(&x);
+            assert!(beside.abs() <= 1e-13, "not the smallest: {beside:e} along {i}");
+        }
+        // of two conditions that are one, the first is met
+        let x = smallest_solution(&[a, a * 2.0], [0.5, 7.0]);
+        assert!((x - a * (0.5 / a.norm_squared())).norm() <= 1e-15, "{x}");
+        assert_eq!(smallest_solution(&[Vector::zeros(); 2], [1.0, 1.0]), Vector::zeros());
+    }
+}

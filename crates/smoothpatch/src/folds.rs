@@ -106,3 +106,35 @@ impl Ball {
         Self { centre, radius: square.sqrt() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A patch over the triangle (0,0), (1,0), (0,1) whose height bends with `bend`.
+    fn bent(bend: f64) -> SepticTriangle {
+        SepticTriangle::from_fn(|m| {
+            let [x, y] = [m.j, m.k].map(|e| e as f64 / 7.0);
+            DVec3::new(x, y, bend * (x * x - 0.5 * x * y + 2.0 * y * y))
+        })
+    }
+
+    #[test]
+    fn what_the_net_shows_holds_at_the_samples() {
+        let corners = [DVec3::new(0.05, 0.0, 1.0), DVec3::Z, DVec3::new(0.0, -0.05, 1.0)];
+        let cone = Cone::around(corners.map(DVec3::normalize)).unwrap();
+        let shown: Vec<f64> = (0..40)
+            .map(|step| f64::from(step) * 0.05)
+            .filter(|&bend| cone.contains_all_normals(&bent(bend)))
+            .collect();
+        // flat patches pass, strongly bent ones do not
+        assert!(shown.len() >= 2 && shown.len() < 40, "{shown:?}");
+        for bend in shown {
+            let net = bent(bend);
+            for at in Barycentric::lattice(GRID) {
+                let (_, normal) = net.point_and_area_normal(at);
+                assert!(cone.contains(normal), "bend {bend} at {at:?}");
+            }
+        }
+    }
+}
