@@ -48,9 +48,13 @@ fn compare(name: &str, field: &dyn ImplicitSurface, mesh: &TriMesh) -> usize {
     for edge in mesh.topology().edges().filter(sound) {
         let residual = refined.patches.edge_residual(mesh, &refined.network, edge).unwrap();
         let round_off = round_off(mesh, &refined.patches.weights[edge], edge);
-        // weights in the thousands, at slivers, cost both methods the same digits
-        let same = published.patches.edge_residual(mesh, &published.network, edge).unwrap();
-        let bound = (1e-12 + round_off).max(2.0 * same);
+        let mut bound = 1e-12 + round_off;
+        // weights above a thousand, at slivers, cost both methods the same digits
+        let weights = &refined.patches.weights[edge];
+        if weights.mu.iter().chain(&weights.lambda).any(|w| w.abs() > 1e3) {
+            let same = published.patches.edge_residual(mesh, &published.network, edge).unwrap();
+            bound = bound.max(2.0 * same);
+        }
         assert!(residual <= bound, "{name}: {edge:?} {residual:e} > {bound:e}");
     }
     // every fallback is counted
