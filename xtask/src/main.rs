@@ -1,7 +1,9 @@
 //! Verification and upkeep of the workspace.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 
+mod check;
 mod fixtures;
+mod schemes;
 mod study;
 mod table;
 mod tidy;

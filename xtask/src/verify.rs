@@ -1,4 +1,4 @@
-//! `cargo xtask verify`: every scene in every method, measured and compared.
+//! `cargo xtask verify`: every scene in every method and every patch scheme, measured and compared.
 
 mod bounds;
 mod cases;
@@ -9,7 +9,7 @@ mod present;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use smoothpatch::io::Method;
@@ -18,12 +18,18 @@ use cases::Case;
 use golden::Golden;
 use measures::Measures;
 
+use crate::schemes::{self, Effort};
+use crate::study;
+
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Only these scenes.
+    /// Only these scenes, or surfaces of the second table.
     #[arg(long, num_args = 1.., value_name = "NAME")]
     scene: Vec<String>,
-    /// Only this method.
+    /// Only one of the tables.
+    #[arg(long)]
+    only: Option<Part>,
+    /// Only this method; leaves out the second table.
     #[arg(long)]
     method: Option<MethodName>,
     /// Where to write the figures; by default target/verify/verify.json.
@@ -40,10 +46,18 @@ pub(crate) struct Options {
         require_equals = true,
         default_missing_value = "all"
     )]
-    full: Option<crate::study::Part>,
+    full: Option<study::Part>,
     /// Number of threads; by default one per core.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Part {
+    /// Splines fitted to the scenes.
+    Splines,
+    /// Patch schemes over given meshes.
+    Schemes,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -69,26 +83,64 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
     }
     let golden_file = crate::root().join("fixtures/expected/verify.json");
     let mut golden = Golden::read(&golden_file)?;
-    let cases = cases::find(&options.scene, options.method)?;
+    let Selection { cases, schemes } = select(options)?;
 
     let mut rows: Vec<Row> = cases.iter().map(|case| row(case, &golden, options.bless)).collect();
     compare_methods(&mut rows);
+    if !rows.is_empty() {
+        print!("{}{}", present::table(&rows).text(), present::failures(&rows));
+    }
+    let effort = match options.full {
+        Some(part) if part.has(study::Part::Schemes) => Effort::Full,
+        _ => Effort::Usual,
+    };
+    let scheme_rows: Vec<_> = schemes.iter().map(|case| schemes::measure(case, effort)).collect();
+    if !scheme_rows.is_empty() {
+        print!("\n{}{}", schemes::table(&scheme_rows).text(), schemes::failures(&scheme_rows));
+    }
 
-    let good = rows.iter().all(|row| row.failures.is_empty());
-    print!("{}", present::table(&rows).text());
-    print!("{}", present::failures(&rows));
-    present::write_json(&rows, options.json.as_deref())?;
+    let good = rows.iter().all(|row| row.failures.is_empty())
+        && scheme_rows.iter().all(schemes::Row::passes);
+    present::write_json(&rows, &scheme_rows, options.json.as_deref())?;
     if options.bless {
-        let whole = options.scene.is_empty() && options.method.is_none();
+        let whole = options.scene.is_empty()
+            && options.method.is_none()
+            && options.only != Some(Part::Schemes);
         golden.bless(&rows, whole);
         golden.write(&golden_file).with_context(|| golden_file.display().to_string())?;
         println!("golden numbers written to {}", golden_file.display());
     }
     let good_study = match options.full {
-        Some(part) => crate::study::run(part)?,
+        Some(part) => study::run(part)?,
         None => true,
     };
     Ok(good && good_study)
+}
+
+/// What is measured.
+struct Selection {
+    cases: Vec<Case>,
+    schemes: Vec<schemes::Case>,
+}
+
+fn select(options: &Options) -> Result<Selection> {
+    let mut cases = cases::all(options.method)?;
+    let mut schemes = schemes::cases();
+    for name in &options.scene {
+        let scenes = cases.iter().map(|case| &*case.scene.name);
+        let mut known: Vec<&str> =
+            scenes.chain(schemes.iter().map(|case| &*case.surface)).collect();
+        known.dedup();
+        if !known.contains(&&**name) {
+            bail!("there is no scene or surface named `{name}`; known are {}", known.join(", "));
+        }
+    }
+    let wanted = |name: &String| options.scene.is_empty() || options.scene.contains(name);
+    cases.retain(|case| wanted(&case.scene.name) && options.only != Some(Part::Schemes));
+    schemes.retain(|case| {
+        wanted(&case.surface) && options.only != Some(Part::Splines) && options.method.is_none()
+    });
+    Ok(Selection { cases, schemes })
 }
 
 fn row(case: &Case, golden: &Golden, bless: bool) -> Row {

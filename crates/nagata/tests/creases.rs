@@ -3,30 +3,18 @@
 
 mod common;
 
+use common::GridMesh as _;
+
 use std::f64::consts::FRAC_PI_6;
 
 use common::{CYLINDER, build, residual};
 use nagata::basemesh::VertexId;
 use nagata::glam::DVec3;
-use nagata::{CornerNormals, Join, PolygonMesh, Settings, apexes};
-
-/// An L-shaped solid of quadrilaterals: the outline of an L, lifted.
-fn l_shape() -> PolygonMesh {
-    let outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
-    let mut positions = Vec::new();
-    for z in [0.0, 1.0] {
-        positions.extend(outline.map(|[x, y]| DVec3::new(f64::from(x), f64::from(y), z)));
-    }
-    // the outline's corner (1, 0) and (0, 1) are missing: the flat parts are one quad each way
-    let mut faces: Vec<Vec<usize>> =
-        (0..6).map(|k| vec![k, (k + 1) % 6, 6 + (k + 1) % 6, 6 + k]).collect();
-    faces.extend([vec![0, 3, 2, 1], vec![0, 5, 4, 3], vec![6, 7, 8, 9], vec![6, 9, 10, 11]]);
-    PolygonMesh::new(positions, &faces).unwrap()
-}
+use nagata::{CornerNormals, Join, Settings, apexes};
 
 #[test]
 fn an_l_shaped_solid_stays_flat() {
-    let mesh = l_shape();
+    let mesh = common::l_shape().mesh();
     assert!(mesh.is_closed(), "not closed");
     assert_eq!(mesh.euler_characteristic(), 2);
     let normals = CornerNormals::estimated(&mesh, FRAC_PI_6);

@@ -3,6 +3,8 @@
 
 mod common;
 
+use common::GridMesh as _;
+
 use common::{Random, build, samples};
 use nagata::glam::DVec3;
 use nagata::{

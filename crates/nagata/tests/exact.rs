@@ -3,6 +3,8 @@
 
 mod common;
 
+use common::GridMesh as _;
+
 use common::{Random, SPHERE, TORUS, build};
 use nagata::basemesh::{FaceId, VertexId};
 use nagata::bezier_core::{Barycentric, Corner, LocalEdge};

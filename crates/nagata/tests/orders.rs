@@ -3,6 +3,8 @@
 
 mod common;
 
+use common::GridMesh as _;
+
 use common::{CONE, CYLINDER, SPHERE, TORUS, build, errors};
 use nagata::{Apex, CornerNormals, PolygonMesh, Settings};
 
@@ -11,7 +13,7 @@ fn distances(
     mesh: &PolygonMesh,
     normals: &CornerNormals,
     faces: usize,
-    truth: &common::Surface,
+    truth: &common::KnownSurface,
 ) -> [f64; 3] {
     [Settings::position(), Settings::published(), Settings::tangent_plane()]
         .map(|settings| errors(&build(mesh, normals, settings), faces, truth, 16)[0])

@@ -3,6 +3,8 @@
 
 mod common;
 
+use common::GridMesh as _;
+
 use std::f64::consts::TAU;
 
 use common::{Random, build, residual, samples};

@@ -3,6 +3,8 @@
 
 mod common;
 
+use common::GridMesh as _;
+
 use common::{TORUS, smooth, torus};
 use nagata::basemesh::FaceId;
 use nagata::glam::DVec3;

@@ -3,9 +3,11 @@
 
 mod common;
 
-use std::f64::consts::PI;
+use common::GridMesh as _;
 
-use common::{Grid, SPHERE, Surface, TORUS, build, errors, residual};
+use common::{
+    Grid, KnownSurface, MONKEY, SINE, SPHERE, TORUS, build, errors, monkey, residual, sine,
+};
 use nagata::glam::DVec3;
 use nagata::{CornerNormals, EdgeSettings, Join, Settings};
 
@@ -61,35 +63,8 @@ fn a_coarse_torus_keeps_its_tangent_planes() {
     assert!(worst <= ROUND_OFF, "{worst:.1e}");
 }
 
-fn monkey(x: f64, y: f64) -> f64 {
-    x * x * x - 3.0 * x * y * y
-}
-
-fn sine(x: f64, y: f64) -> f64 {
-    (PI * x).sin() * (PI * y).sin() * 0.3
-}
-
-const MONKEY: Surface = Surface {
-    distance: |p| (p.z - monkey(p.x, p.y)) / slope(p).length(),
-    normal: |p| slope(p).normalize(),
-};
-
-fn slope(p: DVec3) -> DVec3 {
-    DVec3::new(3.0 * (p.y * p.y - p.x * p.x), 6.0 * p.x * p.y, 1.0)
-}
-
-const SINE: Surface = Surface {
-    distance: |p| (p.z - sine(p.x, p.y)) / sine_slope(p).length(),
-    normal: |p| sine_slope(p).normalize(),
-};
-
-fn sine_slope(p: DVec3) -> DVec3 {
-    let ((sx, cx), (sy, cy)) = ((PI * p.x).sin_cos(), (PI * p.y).sin_cos());
-    DVec3::new(-0.3 * PI * cx * sy, -0.3 * PI * sx * cy, 1.0)
-}
-
 /// Robust patches on an irregular mesh with hyperbolic regions.
-fn saddle(grid: &Grid, truth: &Surface) {
+fn saddle(grid: &Grid, truth: &KnownSurface) {
     let mesh = grid.mesh();
     let normals = common::smooth(&mesh, truth);
     let [c0, _] = errors(&build(&mesh, &normals, Settings::position()), usize::MAX, truth, 8);

@@ -3,3 +3,4 @@
 pub mod conformance;
 pub mod fields;
 pub mod meshes;
+pub mod polygons;

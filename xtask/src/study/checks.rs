@@ -1,36 +1,10 @@
 //! What the study must show.
 
-use serde::Serialize;
-
 use super::Convergence;
 use super::cost::Cost;
 use super::levels::{Errors, Level, Variant};
 use super::tolerance::{Fit, Scene};
-
-/// One statement with its figure.
-#[derive(Debug, Serialize)]
-pub(super) struct Check {
-    pub(super) what: String,
-    pub(super) value: f64,
-    /// As text, with the direction.
-    pub(super) bound: String,
-    pub(super) holds: bool,
-}
-
-impl Check {
-    fn at_least(what: String, value: f64, bound: f64) -> Self {
-        Self { what, value, bound: format!("≥ {bound}"), holds: value >= bound }
-    }
-
-    fn at_most(what: String, value: f64, bound: f64) -> Self {
-        Self { what, value, bound: format!("≤ {}", short(bound)), holds: value <= bound }
-    }
-}
-
-/// Plain for numbers around one, with an exponent for small ones.
-fn short(bound: f64) -> String {
-    if bound == 0.0 || bound > 0.01 { bound.to_string() } else { format!("{bound:e}") }
-}
+use crate::check::Check;
 
 const POSITION: fn(&Errors) -> Option<f64> = |errors| Some(errors.max);
 const NORMAL: fn(&Errors) -> Option<f64> = |errors| errors.normal_deg;
@@ -89,10 +63,10 @@ pub(super) fn invariants(families: &[Convergence]) -> Vec<Check> {
         .fold(0.0, f64::max);
     let largest = |figure: fn(&Level) -> f64| levels().map(figure).fold(0.0, f64::max);
     vec![
-        Check::at_most("G1 angle °, all surfaces".into(), largest(|l| l.g1_angle_deg), 1e-9),
-        Check::at_most("row residual, all surfaces".into(), largest(|l| l.row_residual), 1e-12),
-        Check::at_most("folds, refined".into(), folds(Variant::Refined) as f64, 0.0),
-        Check::at_most("max deviation, refined over published".into(), worst_ratio, 1.0),
+        Check::at_most("G1 angle °, all surfaces", largest(|l| l.g1_angle_deg), 1e-9),
+        Check::at_most("row residual, all surfaces", largest(|l| l.row_residual), 1e-12),
+        Check::at_most("folds, refined", folds(Variant::Refined) as f64, 0.0),
+        Check::at_most("max deviation, refined over published", worst_ratio, 1.0),
     ]
 }
 

@@ -1,10 +1,11 @@
 //! The tables of the study.
 
-use super::checks::{Check, name, order};
+use super::checks::{name, order};
 use super::cost::Cost;
 use super::levels::{Errors, Level, Variant};
 use super::tolerance::Scene;
 use super::{Convergence, Study};
+use crate::check;
 use crate::table::{Table, scientific};
 
 /// One line per surface and level; orders in brackets.
@@ -98,20 +99,6 @@ fn stages(cost: &Cost) -> String {
     cost.stages.iter().map(stage).collect::<Vec<_>>().join(", ")
 }
 
-pub(super) fn checks(checks: &[Check]) -> Table {
-    let mut table = Table::new(&["check", "measured", "bound", ""]);
-    for check in checks {
-        let value = if (0.01..100.0).contains(&check.value) {
-            format!("{:.2}", check.value)
-        } else {
-            scientific(check.value)
-        };
-        let verdict = if check.holds { "pass" } else { "FAIL" };
-        table.add(vec![check.what.clone(), value, check.bound.clone(), verdict.into()]);
-    }
-    table
-}
-
 /// All tables as a Markdown page.
 pub(super) fn page(study: &Study) -> String {
     let mut page = String::from(
@@ -131,6 +118,6 @@ pub(super) fn page(study: &Study) -> String {
     );
     page +=
         &format!("\n## Cost of the whole pipeline, one thread\n\n{}", cost(&study.cost).markdown());
-    page += &format!("\n## Checks\n\n{}", checks(&study.checks).markdown());
+    page += &format!("\n## Checks\n\n{}", check::table(&study.checks).markdown());
     page
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use smoothpatch::io::{Bounds, Method, Scene};
 
 use super::MethodName;
@@ -21,30 +21,20 @@ impl Case {
     }
 }
 
-/// The cases of these scenes (all if there are no names), small ones first.
-pub(super) fn find(names: &[String], only: Option<MethodName>) -> Result<Vec<Case>> {
-    let scenes = read_scenes()?;
-    for name in names {
-        let known = || scenes.iter().map(|(_, scene)| &*scene.name).collect::<Vec<_>>().join(", ");
-        if !scenes.iter().any(|(_, scene)| scene.name == *name) {
-            bail!("there is no scene named `{name}`; known scenes: {}", known());
-        }
-    }
+/// All scenes in these methods, small ones first.
+pub(super) fn all(only: Option<MethodName>) -> Result<Vec<Case>> {
     let methods = match only {
         None => vec![Method::Published, Method::Refined],
         Some(MethodName::Published) => vec![Method::Published],
         Some(MethodName::Refined) => vec![Method::Refined],
     };
-    let cases = scenes
-        .into_iter()
-        .filter(|(_, scene)| names.is_empty() || names.contains(&scene.name))
-        .flat_map(|(path, scene)| {
-            methods.clone().into_iter().map(move |method| Case {
-                path: path.clone(),
-                scene: scene.clone(),
-                method,
-            })
-        });
+    let cases = read_scenes()?.into_iter().flat_map(|(path, scene)| {
+        methods.clone().into_iter().map(move |method| Case {
+            path: path.clone(),
+            scene: scene.clone(),
+            method,
+        })
+    });
     Ok(cases.collect())
 }
 

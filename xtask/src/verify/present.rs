@@ -8,6 +8,7 @@ use smoothpatch::io::Method;
 
 use super::Row;
 use super::measures::Measures;
+use crate::schemes;
 use crate::table::{Table, scientific};
 
 const HEAD: [&str; 18] = [
@@ -89,11 +90,18 @@ pub(super) fn failures(rows: &[Row]) -> String {
 struct File<'a> {
     threads: usize,
     passed: bool,
+    /// Splines fitted to the scenes.
     cases: &'a [Row],
+    /// Patch schemes over given meshes.
+    schemes: &'a [schemes::Row],
 }
 
 /// Writes all figures to `path`, or to `target/verify/verify.json`.
-pub(super) fn write_json(rows: &[Row], path: Option<&Path>) -> Result<()> {
+pub(super) fn write_json(
+    rows: &[Row],
+    schemes: &[schemes::Row],
+    path: Option<&Path>,
+) -> Result<()> {
     let usual = crate::root().join("target/verify/verify.json");
     let path = path.unwrap_or(&usual);
     if let Some(folder) = path.parent() {
@@ -101,8 +109,10 @@ pub(super) fn write_json(rows: &[Row], path: Option<&Path>) -> Result<()> {
     }
     let file = File {
         threads: rayon::current_num_threads(),
-        passed: rows.iter().all(|row| row.failures.is_empty()),
+        passed: rows.iter().all(|row| row.failures.is_empty())
+            && schemes.iter().all(schemes::Row::passes),
         cases: rows,
+        schemes,
     };
     std::fs::write(path, serde_json::to_string_pretty(&file)? + "\n")
         .with_context(|| path.display().to_string())
