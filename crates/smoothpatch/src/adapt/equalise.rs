@@ -1,6 +1,7 @@
 //! The deviation is spread evenly over a given number of faces.
 
 use basemesh::{FaceMap, RemeshSettings, TriMesh, remesh};
+use implicit::ProjectionSettings;
 
 use super::wishes::{aim_for, even_wishes};
 use crate::error::FitError;
@@ -29,7 +30,7 @@ pub(crate) fn equalise(
     let (mut surface, mut deviations) = fit_again(mesh, source, settings, &mut memory, clock)?;
     let mut best: Option<(f64, G1Surface)> = None;
     for _ in 0..settings.base_mesh.equalising_rounds {
-        let errors = errors(&surface, &deviations);
+        let errors = errors(&surface, &deviations, settings.projection);
         let wishes = even_wishes(&surface.mesh, &errors, aim_for(&errors, faces as f64));
         let to = RemeshSettings { faces: Some(faces), ..RemeshSettings::default() };
         let remeshed =
@@ -62,12 +63,17 @@ fn badness(surface: &G1Surface, deviations: &FaceMap<FaceDeviation>) -> f64 {
     largest(&|face| face.max) * largest(&|face| face.max_normal) + folds as f64 * size
 }
 
-/// Largest distance of every patch in diagonals; one for a folded patch.
-pub(super) fn errors(surface: &G1Surface, deviations: &FaceMap<FaceDeviation>) -> FaceMap<f64> {
+/// Distances up to so many tolerances of the projection are rounding, not shape.
+const NOISE: f64 = 4.0;
+
+/// Largest distance of every patch in diagonals; one for a folded patch. Where nothing is left to see
+/// all are equal, so that no mesh is changed for the sake of rounding.
+pub(super) fn errors(
+    surface: &G1Surface,
+    deviations: &FaceMap<FaceDeviation>,
+    projection: ProjectionSettings,
+) -> FaceMap<f64> {
     let size = surface.mesh.diagonal();
-    deviations.map(
-        |_, face| {
-            if face.folded { 1.0 } else { (face.max / size).clamp(f64::EPSILON, 1.0) }
-        },
-    )
+    let least = (NOISE * projection.tolerance).clamp(f64::EPSILON, 1.0);
+    deviations.map(|_, face| if face.folded { 1.0 } else { (face.max / size).clamp(least, 1.0) })
 }

@@ -38,7 +38,7 @@ fn with_fewer(
 ) -> Result<Option<Fitted>, FitError> {
     // an even number
     let fewer = fitted.faces() * kept / 200 * 2;
-    let errors = errors(&fitted.surface, &fitted.deviations);
+    let errors = errors(&fitted.surface, &fitted.deviations, job.settings.projection);
     let wishes = even_wishes(&fitted.surface.mesh, &errors, aim_for(&errors, fewer as f64));
     let to = RemeshSettings { faces: Some(fewer), ..few_faces() };
     let mut trial = job.fit_remeshed(fitted, &wishes, &to)?;

@@ -131,7 +131,8 @@ fn settle_with(
         grid *= 2;
         let before = largest(faces);
         *faces = faces.map(|face, coarse| {
-            if coarse.max < CANDIDATES * before.0 && coarse.max_normal < CANDIDATES * before.1 {
+            // with equality, so that a surface without any deviation is done
+            if coarse.max <= CANDIDATES * before.0 && coarse.max_normal <= CANDIDATES * before.1 {
                 return *coarse;
             }
             coarse.refined_by(&compare(sample(face, grid), target))
