@@ -1,6 +1,7 @@
 //! The second table of `cargo xtask verify`: patch schemes over given meshes.
 
 mod nagata;
+mod rational;
 
 use std::io::IsTerminal;
 use std::time::Instant;
@@ -72,7 +73,7 @@ impl Row {
 
 /// All cases, in the order of the table.
 pub(crate) fn cases() -> Vec<Case> {
-    nagata::cases()
+    [nagata::cases(), rational::cases()].into_iter().flatten().collect()
 }
 
 pub(crate) fn measure(case: &Case, effort: Effort) -> Row {

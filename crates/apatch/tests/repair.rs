@@ -6,7 +6,9 @@ mod common;
 
 use apatch::basemesh::TriMesh;
 use apatch::glam::DVec3;
-use apatch::rational::{Normals, RationalSurface, RepairSettings, Settings, Side};
+use apatch::rational::{
+    Normals, NormalsUsed, RationalSurface, RepairSettings, Settings, Side, loop_limit_normals,
+};
 use common::{double_torus, given, l_block, noisy_sphere};
 
 /// Edge tetrahedra that are not valid, straight from the surface.
@@ -72,6 +74,44 @@ fn given_normals_and_their_mesh_are_kept() {
     for found in &surface.report().invalid_edges {
         assert!(!(found.angle > 0.0 && found.angle < std::f64::consts::PI), "{found:?}");
     }
+}
+
+/// Moving apices alone mends most edges, and leaves vertices, normals and smoothness as they are.
+#[test]
+fn given_normals_with_moved_apices() {
+    let mut sums = [0; 2];
+    for seed in 1..4 {
+        let mesh = noisy_sphere(0.2, seed);
+        let normals = loop_limit_normals(&mesh);
+        let build = |repair| {
+            let settings = Settings { repair, ..Settings::default() };
+            let normals = Normals::Given(normals.clone());
+            RationalSurface::new(mesh.clone(), normals, &settings).unwrap()
+        };
+        let before = build(RepairSettings::NONE);
+        let after = build(RepairSettings::default());
+        let report = after.report();
+        println!("{} -> {}, {} moved", invalid(&before), invalid(&after), report.moved_apices);
+        assert_eq!((after.mesh(), after.normals()), (&mesh, &normals), "the data are kept");
+        assert_eq!((report.normals, report.loop_steps), (NormalsUsed::Given, 0));
+        assert!(report.moved_apices > 0 && before.report().moved_apices == 0, "{report:?}");
+        assert!(invalid(&after) < invalid(&before), "moving helps");
+        sums = [sums[0] + invalid(&before), sums[1] + invalid(&after)];
+        assert_eq!(report.invalid_edges.len(), invalid(&after), "all reported");
+        // a moved apex is over the positive side of all weights next to the face
+        for face in mesh.topology().faces() {
+            for side in Side::BOTH {
+                let Some(s) = &after.face(face).sides[side.index()] else { continue };
+                let weights = s.l1v.iter().chain(&s.l1e);
+                assert!(weights.copied().all(|w| side.sign() * w > 0.0), "face {face}: {s:?}");
+            }
+        }
+        for (p, vertex) in after.tessellate(3, 2).positions.iter().zip(mesh.positions().as_slice())
+        {
+            assert_eq!(p, vertex, "the first points are the vertices");
+        }
+    }
+    assert!(2 * sums[1] <= sums[0], "half of the faults and more are mended: {sums:?}");
 }
 
 #[test]

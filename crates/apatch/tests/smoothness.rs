@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use apatch::basemesh::{EdgeId, HalfedgeId};
 use apatch::glam::DVec3;
-use apatch::rational::{RationalSurface, Side};
+use apatch::rational::{Normals, RationalSurface, Side, loop_limit_normals};
 use apatch::{Ray, Tessellation};
 use common::{Numbers, surface, zoo};
 
@@ -114,9 +114,19 @@ fn across_edge(
     }
 }
 
+/// Given normals, some apices moved off the normal through the centroid.
+fn moved_apices() -> RationalSurface {
+    let mesh = common::noisy_sphere(0.2, 1);
+    let normals = Normals::Given(loop_limit_normals(&mesh));
+    let surface = surface(&mesh, normals);
+    assert!(surface.report().moved_apices > 5, "{:?}", surface.report());
+    surface
+}
+
 #[test]
 fn value_and_gradient_are_continuous() {
-    for (name, surface) in zoo() {
+    let moved = ("moved apices".to_owned(), moved_apices());
+    for (name, surface) in zoo().into_iter().chain([moved]) {
         let jumps = jumps(&surface, 12);
         println!("{name}: {jumps:?}");
         assert!(jumps.compared > 40, "{name}: only {} comparisons", jumps.compared);
@@ -153,6 +163,13 @@ fn topology_of(mesh: &Tessellation) -> (i64, usize) {
     (euler, edges.values().filter(|n| **n == 1).count())
 }
 
+/// Whether a triangle faces away from the normals at all its corners.
+fn is_turned(mesh: &Tessellation, triangle: &[usize; 3]) -> bool {
+    let [a, b, c] = triangle.map(|i| mesh.positions[i]);
+    let normal = (b - a).cross(c - a);
+    triangle.iter().all(|&i| normal.dot(mesh.normals[i]) < 0.0)
+}
+
 #[test]
 fn tessellations_have_the_topology_of_the_mesh() {
     for (name, surface) in zoo() {
@@ -162,6 +179,8 @@ fn tessellations_have_the_topology_of_the_mesh() {
             let base = surface.mesh().topology();
             assert_eq!(mesh.missing, 0, "{name} {n} {m}");
             assert_eq!(euler, base.euler_characteristic(), "{name} {n} {m}");
+            let turned = mesh.triangles.iter().filter(|t| is_turned(&mesh, t)).count();
+            assert_eq!(turned, 0, "{name} {n} {m}: triangles that face the other way");
             let open = base.edges().filter(|&e| base.is_boundary_edge(e)).count();
             assert_eq!(rim, open * n, "{name} {n} {m}");
             assert!(

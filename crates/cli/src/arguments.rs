@@ -2,6 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
+use crate::apatch::ApatchArguments;
 use crate::check::CheckArguments;
 use crate::fit::FitArguments;
 use crate::nagata::NagataArguments;
@@ -22,6 +23,7 @@ pub(crate) enum Command {
     Fit(FitArguments),
     Check(CheckArguments),
     Nagata(NagataArguments),
+    Apatch(ApatchArguments),
     Query(QueryArguments),
     Shapes(ShapesArguments),
 }
@@ -39,6 +41,7 @@ Examples:
   smoothpatch fit --shape torus --faces 600 -o torus.vtu
   smoothpatch check torus.vtu --shape torus --max-deviation 1e-5
   smoothpatch nagata mesh.obj -o curved.vtu
+  smoothpatch apatch mesh.obj -o smooth.vtu
   smoothpatch query mesh.obj --points points.csv
   smoothpatch shapes
 

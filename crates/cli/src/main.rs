@@ -1,6 +1,7 @@
 //! The command line of smoothpatch: fit an implicit surface with G1 patches, check the result,
 //! curve a mesh with normals.
 
+mod apatch;
 mod arguments;
 mod check;
 mod exit;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         Command::Fit(arguments) => fit::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Nagata(arguments) => nagata::run(&arguments),
+        Command::Apatch(arguments) => apatch::run(&arguments),
         Command::Query(arguments) => query::run(&arguments),
         Command::Shapes(arguments) => shapes::run(&arguments),
     };

@@ -2,7 +2,7 @@
 
 pub(crate) mod options;
 mod outputs;
-mod report_file;
+pub(crate) mod report_file;
 mod summary;
 pub(crate) mod task;
 mod warnings;

@@ -15,6 +15,29 @@ pub(crate) fn listener(quiet: bool) -> Box<dyn Progress> {
     }
 }
 
+/// A line on stderr while work of another kind goes on, under the same conditions; it vanishes when
+/// this is dropped.
+pub(crate) struct WorkLine(ProgressBar);
+
+impl WorkLine {
+    pub(crate) fn new(quiet: bool, what: &'static str) -> Self {
+        if quiet || !std::io::stderr().is_terminal() {
+            return Self(ProgressBar::hidden());
+        }
+        let bar = ProgressBar::new_spinner();
+        bar.set_style(style("{spinner} {msg:<12} {elapsed:>6}"));
+        bar.set_message(what);
+        bar.enable_steady_tick(TICK);
+        Self(bar)
+    }
+}
+
+impl Drop for WorkLine {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
+
 /// A line for each stage with its size and time; they vanish when this is dropped.
 #[derive(Default)]
 struct StageLines {

@@ -3,6 +3,7 @@
 pub mod measure;
 
 mod adapt;
+pub mod apatch_surface;
 mod error;
 mod folds;
 mod memory;
@@ -20,6 +21,7 @@ mod source;
 mod surface;
 
 pub use adapt::{Adaptation, Distance, Tolerance, fit_to_tolerance};
+pub use apatch;
 pub use basemesh;
 pub use bezier_core;
 pub use error::FitError;

@@ -3,4 +3,7 @@
 pub mod conformance;
 pub mod fields;
 pub mod meshes;
+mod numbers;
 pub mod polygons;
+
+pub use numbers::Numbers;

@@ -1,6 +1,7 @@
 //! From the hull to all weights.
 
 use basemesh::{EdgeId, EdgeMap, FaceId, FaceMap};
+use glam::DVec3;
 
 use super::apex::{blocks_of, corner_normals, height, heights};
 use super::base::BaseLayer;
@@ -18,7 +19,11 @@ use super::surface::RationalSurface;
 /// All weights over a hull.
 pub(crate) fn surface(repaired: Repaired, settings: &Settings) -> RationalSurface {
     let hull = &repaired.hull;
-    let faces = FaceMap::from_fn(hull.kinds.len(), |face| face_patch(hull, face, settings));
+    // tensions belong to the faces that were given: a step of Loop's scheme makes four of each
+    let given = |face: FaceId| face.index() >> (2 * repaired.loop_steps);
+    let tension = |face| settings.shape.of(given(face));
+    let faces =
+        FaceMap::from_fn(hull.kinds.len(), |face| face_patch(hull, face, tension(face), settings));
     let edges = EdgeMap::from_fn(hull.edges.len(), |edge| edge_patch(hull, &faces, edge));
     let report = first_report(&repaired, &faces, &edges);
     let Hull { mesh, normals, .. } = repaired.hull;
@@ -28,7 +33,12 @@ pub(crate) fn surface(repaired: Repaired, settings: &Settings) -> RationalSurfac
 }
 
 /// One face with its tetrahedra.
-pub(crate) fn face_patch(hull: &Hull, face: FaceId, settings: &Settings) -> FacePatch {
+pub(crate) fn face_patch(
+    hull: &Hull,
+    face: FaceId,
+    tension: f64,
+    settings: &Settings,
+) -> FacePatch {
     let frame = &hull.frames[face];
     let convexity = hull.kinds[face];
     let blocks = blocks_of(&hull.mesh, &hull.blocks, face);
@@ -37,12 +47,15 @@ pub(crate) fn face_patch(hull: &Hull, face: FaceId, settings: &Settings) -> Face
     let base = |split| BaseLayer::new(e, &frame.corners, frame.centroid, blocks, split);
     let mut layer0 = base(settings.always_split || convexity == Convexity::Nonconvex);
     let mut apices = hull.apices[face];
-    let promoted = is_wrong_inside(convexity, &layer0, frame.size, settings);
+    let known = apices.iter().flatten().next().copied();
+    let promoted = known.is_some_and(|apex| {
+        let scale = size_of_values(apex, &frame.corners, normals);
+        is_wrong_inside(convexity, &layer0, scale, settings)
+    });
     if promoted {
         layer0 = base(true);
         // both apices on one line through the centroid, as smoothness asks
-        let known = apices.iter().flatten().next();
-        let up = known.map_or(frame.normal, |&apex| apex - frame.centroid);
+        let up = known.map_or(frame.normal, |apex| apex - frame.centroid);
         let direction = up / up.dot(frame.normal);
         let heights = heights(frame, direction, normals, blocks);
         for side in Side::BOTH {
@@ -57,7 +70,6 @@ pub(crate) fn face_patch(hull: &Hull, face: FaceId, settings: &Settings) -> Face
         s.neighbours = neighbour_fit(&layer0, &s, &frame.corners, frame.size, opposite(hull, face));
         s.bound = face_bound(&layer0, &s, side, &settings.sheet);
         let wanted = wanted(&s, side.sign(), settings.rule);
-        let tension = settings.shape.of(face.index());
         let free = bounded(wanted, s.bound, settings.sheet.margin, s.scale(), tension);
         s.set_free(side.sign() * free);
         Some(s)
@@ -65,8 +77,19 @@ pub(crate) fn face_patch(hull: &Hull, face: FaceId, settings: &Settings) -> Face
     FacePatch { corners: frame.corners, convexity, promoted, base: layer0, sides }
 }
 
-/// Whether the function on a convex face has the other sign somewhere inside.
-fn is_wrong_inside(convexity: Convexity, base: &BaseLayer, size: f64, settings: &Settings) -> bool {
+/// [`FaceSide::scale`] of the tetrahedron with this apex.
+fn size_of_values(apex: DVec3, corners: &[DVec3; 3], normals: [DVec3; 3]) -> f64 {
+    let heights = corners.iter().zip(normals).map(|(&corner, n)| (apex - corner).dot(n).abs());
+    heights.fold(0.0, f64::max)
+}
+
+/// Whether the function on a convex face has the other sign somewhere inside; `scale` is its size.
+fn is_wrong_inside(
+    convexity: Convexity,
+    base: &BaseLayer,
+    scale: f64,
+    settings: &Settings,
+) -> bool {
     let side = match convexity {
         Convexity::Positive => Side::Positive,
         Convexity::Negative => Side::Negative,
@@ -74,7 +97,7 @@ fn is_wrong_inside(convexity: Convexity, base: &BaseLayer, size: f64, settings: 
     };
     // weights on the edges have the right sign: only the middle ones can spoil it
     base.middle_weights().iter().any(|g| side.sign() * g > 0.0)
-        && has_wrong_sign(base, size, side, settings.sheet.grid)
+        && has_wrong_sign(base, scale, side, settings.sheet.grid)
 }
 
 /// Weights on the edges of a face: for each corner, towards the next and the previous one.

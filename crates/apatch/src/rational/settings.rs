@@ -89,12 +89,12 @@ impl Default for SheetSettings {
 /// sheet. The surface stays smooth whatever the tensions are.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct ShapeControl {
     /// Of every face that is not listed.
     pub tension: f64,
-    /// Of single faces, by index in the mesh that the surface is built over (four for each face of
-    /// the input after a Loop step, see [`Report::loop_steps`](super::Report::loop_steps)).
+    /// Of single faces, by index in the mesh that is given. After a Loop step, see
+    /// [`Report::loop_steps`](super::Report::loop_steps), the four parts of a face have its tension.
     pub faces: BTreeMap<usize, f64>,
 }
 

@@ -40,12 +40,11 @@ impl RationalSurface {
     /// [`SurfaceError`] for unusable normals, faces without area, and settings out of range.
     pub fn new(mesh: TriMesh, normals: Normals, settings: &Settings) -> Result<Self, SurfaceError> {
         settings.check()?;
-        let repaired = repaired_hull(mesh, normals, settings)?;
-        let count = repaired.hull.mesh.topology().face_count();
-        match settings.shape.faces.keys().copied().find(|&face| face >= count) {
-            Some(face) => Err(SurfaceError::MissingFace { face, count }),
-            None => Ok(build::surface(repaired, settings)),
+        let count = mesh.topology().face_count();
+        if let Some(&face) = settings.shape.faces.keys().find(|&&face| face >= count) {
+            return Err(SurfaceError::MissingFace { face, count });
         }
+        Ok(build::surface(repaired_hull(mesh, normals, settings)?, settings))
     }
 
     /// The mesh that the surface is built over: the given one, or that after one step of Loop's

@@ -59,11 +59,13 @@ impl RationalSurface {
         let patch = &self.edges[edge];
         let ends = topology.edge_vertices(edge).map(basemesh::VertexId::index);
         let parameters = parameters(patch, along);
+        let crossing = patch.crossing();
         let mut rows = vec![vec![ends[0]; across + 1]];
         for &s in &parameters[1..along] {
-            let x = 1.0 - s;
+            // a parameter that was moved to the crossing, and may be rounded
+            let x = crossing.filter(|x| 1.0 - x == s).unwrap_or(1.0 - s);
             let foot = patch.ends[0] * x + patch.ends[1] * s;
-            let open = patch.side_at(patch.base(x)).is_some() && Some(x) != patch.crossing();
+            let open = patch.side_at(patch.base(x)).is_some() && Some(x) != crossing;
             rows.push(if open {
                 (0..=across)
                     .map(|j| patch.point([x, j as f64 / across as f64]))
@@ -136,12 +138,17 @@ impl RationalSurface {
     }
 }
 
+/// The surface crosses an edge this part of a step from a vertex or nearer: it hardly leaves the edge
+/// before, and triangles in between would have no area.
+const NEAR_VERTEX: f64 = 0.25;
+
 /// Steps along an edge, from 0 to 1; the inner one nearest to where the surface crosses the edge is
-/// moved there.
+/// moved there, unless that is next to a vertex.
 fn parameters(patch: &EdgePatch, along: usize) -> Vec<f64> {
     let n = along as f64;
     let mut steps: Vec<f64> = (0..=along).map(|i| i as f64 / n).collect();
-    if let Some(crossing) = patch.crossing().map(|x| 1.0 - x).filter(|_| along >= 2) {
+    let inner = NEAR_VERTEX / n..1.0 - NEAR_VERTEX / n;
+    if let Some(crossing) = patch.crossing().map(|x| 1.0 - x).filter(|s| inner.contains(s)) {
         let inner = (1..along).min_by(|&a, &b| {
             let distance = |i: usize| (steps[i] - crossing).abs();
             distance(a).total_cmp(&distance(b))

@@ -104,7 +104,7 @@ pub(crate) enum NormalsName {
 }
 
 impl NormalsName {
-    fn parse(text: &str) -> Result<Self, String> {
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
         match text {
             "file" => Ok(Self::File),
             "estimate" => Ok(Self::Estimate),
@@ -116,7 +116,7 @@ impl NormalsName {
         }
     }
 
-    fn scene(&self) -> Option<&Path> {
+    pub(crate) fn scene(&self) -> Option<&Path> {
         match self {
             Self::Scene(path) => Some(path),
             _ => None,

@@ -35,12 +35,9 @@ pub(crate) enum NormalsUsed {
 impl Task {
     pub(crate) fn new(options: &SurfaceOptions, reference: Option<&Path>) -> anyhow::Result<Self> {
         let settings = options.settings()?;
-        let polygons = read(options)?;
-        let normals = normals_used(options, &polygons);
-        let normals_scene = match &normals {
-            NormalsUsed::Scene(path) => Some(path.as_path()),
-            NormalsUsed::File | NormalsUsed::Estimate => None,
-        };
+        let polygons = read(&options.mesh, options.triangulate)?;
+        let normals = NormalsUsed::of(options.normals.as_ref(), &polygons);
+        let normals_scene = normals.scene();
         let reference = reference.or(normals_scene).map(field).transpose()?;
         let normals_field = normals_scene.map(field).transpose()?;
         let source = match (&normals, &normals_field) {
@@ -68,32 +65,43 @@ impl Task {
     }
 }
 
-/// The mesh as the options want it.
-fn read(options: &SurfaceOptions) -> anyhow::Result<Polygons> {
-    let large_faces = if options.triangulate { LargeFaces::Split } else { LargeFaces::Refuse };
-    let polygons = read_polygons_file(&options.mesh, large_faces).map_err(|error| {
+/// The mesh of a file, cut into triangles if that is wanted.
+pub(crate) fn read(mesh: &Path, triangulate: bool) -> anyhow::Result<Polygons> {
+    let large_faces = if triangulate { LargeFaces::Split } else { LargeFaces::Refuse };
+    let polygons = read_polygons_file(mesh, large_faces).map_err(|error| {
         let hint = match error.problem {
             ObjReadError::NotAPolygon { corners: 5.., .. } => "; --triangulate does it",
             _ => "",
         };
         anyhow!("{error}{hint}")
     })?;
-    Ok(if options.triangulate { polygons.triangulated() } else { polygons })
+    Ok(if triangulate { polygons.triangulated() } else { polygons })
 }
 
-fn normals_used(options: &SurfaceOptions, polygons: &Polygons) -> NormalsUsed {
-    let mut corners = polygons.corner_normals.iter().flat_map(Polygon::corners);
-    match &options.normals {
-        Some(NormalsName::File) => NormalsUsed::File,
-        Some(NormalsName::Estimate) => NormalsUsed::Estimate,
-        Some(NormalsName::Scene(path)) => NormalsUsed::Scene(path.clone()),
-        None if corners.any(Option::is_some) => NormalsUsed::File,
-        None => NormalsUsed::Estimate,
+impl NormalsUsed {
+    /// What an option asks for; without one, those of the file if it has any.
+    pub(crate) fn of(option: Option<&NormalsName>, polygons: &Polygons) -> Self {
+        let mut corners = polygons.corner_normals.iter().flat_map(Polygon::corners);
+        match option {
+            Some(NormalsName::File) => Self::File,
+            Some(NormalsName::Estimate) => Self::Estimate,
+            Some(NormalsName::Scene(path)) => Self::Scene(path.clone()),
+            None if corners.any(Option::is_some) => Self::File,
+            None => Self::Estimate,
+        }
+    }
+
+    /// The scene that they come from.
+    pub(crate) fn scene(&self) -> Option<&Path> {
+        match self {
+            Self::Scene(path) => Some(path),
+            Self::File | Self::Estimate => None,
+        }
     }
 }
 
 /// The name and the field of a scene.
-fn field(path: &Path) -> anyhow::Result<(String, Box<dyn ImplicitSurface>)> {
+pub(crate) fn field(path: &Path) -> anyhow::Result<(String, Box<dyn ImplicitSurface>)> {
     let scene = Scene::read(path)?;
     let field = field_of(&scene.surface)?;
     Ok((scene.name, field))

@@ -1,6 +1,7 @@
 //! The program as its users meet it: the built binary, run in a temporary directory.
 #![allow(clippy::unwrap_used, reason = "in tests, also in their helpers")]
 
+mod apatch;
 mod bad_input;
 mod check;
 mod fit;

@@ -43,11 +43,11 @@ pub(crate) fn cylinder(n: usize) -> String {
     text
 }
 
-fn cells(place: &Workplace, name: &str) -> Grid {
+pub(crate) fn cells(place: &Workplace, name: &str) -> Grid {
     read_grid_file(place.path(name)).unwrap()
 }
 
-fn data(grid: &Grid, name: &str) -> Vec<f64> {
+pub(crate) fn data(grid: &Grid, name: &str) -> Vec<f64> {
     let data = grid.cell_data.iter().find(|data| data.name == name).unwrap();
     match &data.values {
         CellValues::Float64(values) => values.clone(),
@@ -56,7 +56,7 @@ fn data(grid: &Grid, name: &str) -> Vec<f64> {
 }
 
 /// Whether a table has these rows, whatever the width of its columns.
-fn has_rows(table: &str, rows: &[&str]) {
+pub(crate) fn has_rows(table: &str, rows: &[&str]) {
     let words: Vec<&str> = table.split_whitespace().collect();
     let words = words.join(" ");
     for row in rows {
@@ -65,7 +65,7 @@ fn has_rows(table: &str, rows: &[&str]) {
 }
 
 /// Whether every directed side of the triangles in a file has its opposite.
-fn is_closed(place: &Workplace, name: &str) -> bool {
+pub(crate) fn is_closed(place: &Workplace, name: &str) -> bool {
     let mesh = read_polygons_file(place.path(name), LargeFaces::Refuse).unwrap();
     let sides = mesh.faces.iter().flat_map(|face| {
         let corners = face.corners();

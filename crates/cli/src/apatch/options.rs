@@ -1,0 +1,113 @@
+//! The options that decide which surface is made.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use smoothpatch::apatch::rational::{FreeWeightRule, RepairSettings, Settings};
+
+use super::tension::Tension;
+use crate::nagata::options::NormalsName;
+
+/// A mesh and what is made of it.
+#[derive(Args)]
+#[group(skip)]
+pub(crate) struct RationalOptions {
+    /// Triangles, with or without normals (OBJ)
+    #[arg(value_name = "MESH.obj")]
+    pub(crate) mesh: PathBuf,
+
+    /// Where normals come from: `file`, `estimate`, or a scene file with the surface that the mesh
+    /// stands for, whose gradients are taken [default: file if it has any, otherwise estimate]
+    #[arg(long, value_name = "file|estimate|SCENE.ron", value_parser = NormalsName::parse)]
+    pub(crate) normals: Option<NormalsName>,
+
+    /// Cut quadrilaterals along their shorter diagonals, and larger faces around their first corners
+    #[arg(long)]
+    pub(crate) triangulate: bool,
+
+    /// Which function
+    #[arg(long, value_enum, default_value_t = SchemeName::Rational)]
+    scheme: SchemeName,
+
+    /// How the number that is free in each tetrahedron is chosen
+    #[arg(long, value_enum, default_value_t = RuleName::Clamped)]
+    rule: RuleName,
+
+    /// From -1 (as far out as the surface stays in one piece) over 0 (the rule's choice) to any
+    /// positive number (close to the triangles): one number, or a .ron or .json file with one for
+    /// each face
+    #[arg(long, value_name = "T|FILE", default_value = "0", value_parser = Tension::parse)]
+    #[arg(allow_hyphen_values = true)]
+    tension: Tension,
+
+    /// What may be changed where tetrahedra overlap
+    #[arg(long, value_enum, default_value_t = RepairName::All)]
+    repair: RepairName,
+}
+
+impl RationalOptions {
+    /// Files that must not be overwritten with results.
+    pub(crate) fn files_read(&self) -> Vec<&Path> {
+        let scene = self.normals.as_ref().and_then(NormalsName::scene);
+        [Some(self.mesh.as_path()), scene, self.tension.file()].into_iter().flatten().collect()
+    }
+
+    /// The file with the tensions, if there is one.
+    pub(crate) fn tension_file(&self) -> Option<&Path> {
+        self.tension.file()
+    }
+
+    /// Settings of the construction.
+    pub(crate) fn settings(&self) -> anyhow::Result<Settings> {
+        let SchemeName::Rational = self.scheme;
+        Ok(Settings {
+            rule: self.rule.into(),
+            shape: self.tension.read()?,
+            repair: self.repair.into(),
+            ..Settings::default()
+        })
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SchemeName {
+    /// C1, rational over convex faces, with given or estimated normals (Xu, Huang and Bajaj 2001)
+    Rational,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum RuleName {
+    /// After the neighbours: reproduces quadrics, order 3
+    Clamped,
+    /// As in the paper: order 2, often closer on very coarse meshes
+    Published,
+}
+
+impl From<RuleName> for FreeWeightRule {
+    fn from(name: RuleName) -> Self {
+        match name {
+            RuleName::Clamped => Self::Clamped,
+            RuleName::Published => Self::Published,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum RepairName {
+    /// Tetrahedra, then estimated normals, then one step of Loop's scheme, which rounds the shape
+    All,
+    /// Tetrahedra and estimated normals
+    KeepMesh,
+    /// Nothing
+    None,
+}
+
+impl From<RepairName> for RepairSettings {
+    fn from(name: RepairName) -> Self {
+        match name {
+            RepairName::All => Self::default(),
+            RepairName::KeepMesh => Self { loop_step: false, ..Self::default() },
+            RepairName::None => Self::NONE,
+        }
+    }
+}
