@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bernstein;
 mod cubic_root;
 mod hierarchy;
 mod linear_program;
@@ -9,6 +10,7 @@ mod segment_polynomial;
 mod tessellate;
 mod tetrahedron;
 
+pub mod polyhedral;
 pub mod rational;
 
 pub use basemesh;

@@ -1,0 +1,27 @@
+//! Smooth solids: A-patches over an inner hull of a polyhedron \[BCX94\].
+
+mod checks;
+mod cubic;
+mod error;
+mod fill;
+mod flat_face;
+mod guards;
+mod hull;
+mod middle_weights;
+mod points;
+mod polyhedron;
+mod quintic;
+mod report;
+mod settings;
+mod skeleton;
+mod surface;
+
+pub use checks::{Finding, Margins};
+pub use error::{HullError, PolyhedronError};
+pub use hull::{Cell, Hull, HullEdge, HullTriangle, Split};
+pub use points::SurfacePoint;
+pub use polyhedron::{Facet, Planarity, Polyhedron};
+pub use report::{FairnessReport, Report};
+pub use settings::{FairnessSettings, HullSettings, Scheme, Settings, ShapeControl};
+pub use skeleton::{PointOrigin, TriangleOrigin};
+pub use surface::{CellJet, PolyhedralSurface};
