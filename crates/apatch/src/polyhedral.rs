@@ -1,18 +1,23 @@
 //! Smooth solids: A-patches over an inner hull of a polyhedron \[BCX94\].
 
 mod checks;
+mod conditions;
 mod cubic;
+mod dofs;
+mod energy;
 mod error;
 mod fill;
 mod flat_face;
 mod guards;
 mod hull;
+mod kkt;
 mod middle_weights;
 mod points;
 mod polyhedron;
 mod quintic;
 mod report;
 mod settings;
+mod signs;
 mod skeleton;
 mod surface;
 

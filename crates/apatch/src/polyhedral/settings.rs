@@ -76,8 +76,6 @@ impl ShapeControl {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]
 pub struct FairnessSettings {
-    /// Weight of the jumps of third derivatives across triangles, against their integral.
-    pub jumps: f64,
     /// Largest number of rounds in which rays that meet the surface several times add conditions.
     pub rounds: usize,
     /// Least value of upper weights, in units of the size of the solid.
@@ -86,7 +84,7 @@ pub struct FairnessSettings {
 
 impl Default for FairnessSettings {
     fn default() -> Self {
-        Self { jumps: 1.0, rounds: 6, margin: 1e-6 }
+        Self { rounds: 6, margin: 1e-6 }
     }
 }
 
@@ -123,7 +121,6 @@ impl Settings {
         for value in shape.cuts.values().chain([&shape.cut]).copied() {
             within("shape cut", value, true, "finite")?;
         }
-        within("fairness.jumps", fairness.jumps, fairness.jumps >= 0.0, "finite, not negative")?;
         within("fairness.margin", fairness.margin, fairness.margin >= 0.0, "finite, not negative")?;
         let faces = shape.faces.keys().chain(shape.guards.keys());
         exist("face", faces, solid.facets().len())?;

@@ -64,7 +64,7 @@ impl PolyhedralSurface {
         let (degree, weights) = match settings.scheme {
             Scheme::C1Cubic => (3, cubic(&hull, &settings.shape)),
             Scheme::C2Quintic => {
-                let (weights, fairness) = quintic(&hull, &settings.fairness);
+                let (weights, fairness) = quintic(&hull, &report, &settings.fairness);
                 report.fairness = Some(fairness);
                 (5, weights)
             }

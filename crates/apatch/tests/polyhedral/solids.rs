@@ -13,3 +13,15 @@ fn c1() {
         println!("   {:?}", jumps(&surface));
     }
 }
+
+#[test]
+fn c2() {
+    for (name, solid) in solids() {
+        let start = std::time::Instant::now();
+        let surface = PolyhedralSurface::new(&solid, &settings(Scheme::C2Quintic)).unwrap();
+        let time = start.elapsed().as_secs_f64() * 1e3 / solid.facets().len() as f64;
+        let report = surface.report();
+        println!("{name} {time:.0} ms/face {:?} bad {:?}", report.fairness, report.bad_rays);
+        println!("   {:?}", jumps(&surface));
+    }
+}
