@@ -9,6 +9,7 @@ mod ray;
 mod segment_polynomial;
 mod tessellate;
 mod tetrahedron;
+mod unfold;
 
 pub mod polyhedral;
 pub mod rational;

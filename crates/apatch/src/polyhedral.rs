@@ -20,6 +20,7 @@ mod settings;
 mod signs;
 mod skeleton;
 mod surface;
+mod tessellate;
 
 pub use checks::{Finding, Margins};
 pub use error::{HullError, PolyhedronError};

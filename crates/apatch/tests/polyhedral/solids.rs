@@ -11,6 +11,10 @@ fn c1() {
         let report = surface.report();
         println!("{name} hulls {} findings {} {:?} bad {:?} {:?}", report.hulls, report.findings.len(), report.findings.iter().take(3).collect::<Vec<_>>(), report.bad_rays, report.margins);
         println!("   {:?}", jumps(&surface));
+        for n in [6, 12] {
+            let m = surface.tessellate(n, n);
+            println!("   n {n} missing {} flipped {} volume {}", m.missing, m.flipped_facets(), m.signed_volume());
+        }
     }
 }
 
@@ -23,5 +27,9 @@ fn c2() {
         let report = surface.report();
         println!("{name} {time:.0} ms/face {:?} bad {:?}", report.fairness, report.bad_rays);
         println!("   {:?}", jumps(&surface));
+        for n in [6, 12] {
+            let m = surface.tessellate(n, n);
+            println!("   n {n} missing {} flipped {} volume {}", m.missing, m.flipped_facets(), m.signed_volume());
+        }
     }
 }
