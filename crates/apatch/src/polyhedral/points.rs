@@ -33,7 +33,7 @@ impl SurfacePoint {
 /// How often a ray meets the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Meets {
-    /// The ray starts on the other side: its point is below.
+    /// The ray starts above the surface, and stays there: its point is on the other side.
     Elsewhere,
     Once,
     Wrongly,
@@ -82,7 +82,10 @@ impl PolyhedralSurface {
         let noise = 64.0 * f64::EPSILON * largest;
         let clean = ray.map(|b| if b.abs() <= noise { 0.0 } else { b });
         if clean[0] > 0.0 {
-            return Meets::Elsewhere;
+            // the point is on the other side: there must be none here
+            let positive = clean[..=self.degree].iter().all(|b| *b >= 0.0);
+            let misses = positive || self.roots(&clean) == 0;
+            return if misses { Meets::Elsewhere } else { Meets::Wrongly };
         }
         let mut signs = clean[..=self.degree].iter().copied().filter(|b| *b != 0.0).peekable();
         let rising = signs.peek().is_some_and(|b| *b > 0.0);

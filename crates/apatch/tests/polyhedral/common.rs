@@ -1,34 +1,39 @@
 //! The fifteen solids, and measures of smoothness.
 
+use std::collections::BTreeSet;
+
+use apatch::Tessellation;
 use apatch::glam::{DMat3, DVec3};
 use apatch::polyhedral::{Planarity, PolyhedralSurface, Polyhedron, Scheme, Settings};
 use apatch::rational::Side;
 use serde_json::Value;
 
-pub fn read(name: &str) -> Value {
+use crate::numbers::Numbers;
+
+pub(crate) fn read(name: &str) -> Value {
     let folder = "/../../fixtures/oracle/polyhedra-a-patch/";
     let path = format!("{}{folder}{name}.json", env!("CARGO_MANIFEST_DIR"));
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-pub fn list(v: &Value) -> &Vec<Value> {
+pub(crate) fn list(v: &Value) -> &Vec<Value> {
     v.as_array().unwrap()
 }
 
-pub fn number(v: &Value) -> f64 {
+pub(crate) fn number(v: &Value) -> f64 {
     v.as_f64().unwrap()
 }
 
-pub fn index(v: &Value) -> usize {
+pub(crate) fn index(v: &Value) -> usize {
     usize::try_from(v.as_u64().unwrap()).unwrap()
 }
 
-pub fn vector(v: &Value) -> DVec3 {
+pub(crate) fn vector(v: &Value) -> DVec3 {
     let n: Vec<f64> = list(v).iter().map(number).collect();
     DVec3::from_slice(&n)
 }
 
-pub fn solid(value: &Value) -> Polyhedron {
+pub(crate) fn solid(value: &Value) -> Polyhedron {
     let vertices = list(&value["vertices"]).iter().map(vector).collect();
     let looped = |l: &Value| list(l).iter().map(index).collect::<Vec<_>>();
     let face = |f: &Value| list(f).iter().map(looped).collect::<Vec<_>>();
@@ -37,25 +42,25 @@ pub fn solid(value: &Value) -> Polyhedron {
 }
 
 /// All fifteen by name.
-pub fn solids() -> Vec<(String, Polyhedron)> {
+pub(crate) fn solids() -> Vec<(String, Polyhedron)> {
     let all = read("solids");
     let solids = all["solids"].as_object().unwrap();
     solids.iter().map(|(name, value)| (name.clone(), solid(value))).collect()
 }
 
-pub fn settings(scheme: Scheme) -> Settings {
+pub(crate) fn settings(scheme: Scheme) -> Settings {
     Settings { scheme, ..Settings::default() }
 }
 
 /// Largest jumps across all shared triangles of tetrahedra, relative to the largest gradient and
 /// second derivative anywhere: gradient, second derivatives; and the angle of normals on the surface.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Jumps {
-    pub value: f64,
-    pub gradient: f64,
-    pub hessian: f64,
-    pub angle: f64,
-    pub curvature: f64,
+pub(crate) struct Jumps {
+    pub(crate) value: f64,
+    pub(crate) gradient: f64,
+    pub(crate) hessian: f64,
+    pub(crate) angle: f64,
+    pub(crate) curvature: f64,
 }
 
 fn shared(a: [usize; 4], b: [usize; 4]) -> Option<[usize; 3]> {
@@ -64,7 +69,7 @@ fn shared(a: [usize; 4], b: [usize; 4]) -> Option<[usize; 3]> {
 }
 
 /// Mean and Gauss curvature of a level set.
-pub fn curvatures(gradient: DVec3, hessian: DMat3) -> [f64; 2] {
+pub(crate) fn curvatures(gradient: DVec3, hessian: DMat3) -> [f64; 2] {
     let n = gradient.normalize();
     let (u, v) = n.any_orthonormal_pair();
     let form = |a: DVec3, b: DVec3| a.dot(hessian * b) / gradient.length();
@@ -72,7 +77,7 @@ pub fn curvatures(gradient: DVec3, hessian: DMat3) -> [f64; 2] {
     [0.5 * (e + g), e * g - f * f]
 }
 
-pub fn jumps(surface: &PolyhedralSurface) -> Jumps {
+pub(crate) fn jumps(surface: &PolyhedralSurface) -> Jumps {
     let hull = surface.hull();
     let size = hull.size();
     let mut found = Jumps::default();
@@ -127,6 +132,44 @@ pub fn jumps(surface: &PolyhedralSurface) -> Jumps {
 }
 
 /// Of the sides that a cell can have.
-pub fn side(v: &Value) -> Side {
+pub(crate) fn side(v: &Value) -> Side {
     if number(v) > 0.0 { Side::Positive } else { Side::Negative }
+}
+
+/// Euler characteristic of a mesh, if every side of a triangle has exactly one other triangle.
+pub(crate) fn closed_characteristic(mesh: &Tessellation) -> Option<isize> {
+    let mut sides = BTreeSet::new();
+    let mut points = BTreeSet::new();
+    for &[a, b, c] in &mesh.triangles {
+        points.extend([a, b, c]);
+        if ![[a, b], [b, c], [c, a]].into_iter().all(|side| sides.insert(side)) {
+            return None;
+        }
+    }
+    if !sides.iter().all(|&[a, b]| sides.contains(&[b, a])) {
+        return None;
+    }
+    let signed = |n: usize| isize::try_from(n).unwrap();
+    Some(signed(points.len()) - signed(sides.len() / 2) + signed(mesh.triangles.len()))
+}
+
+/// A random convex solid: even seeds have triangles for faces, odd ones corners of three edges.
+pub(crate) fn convex_solid(seed: u64) -> Polyhedron {
+    let mut numbers = Numbers::new(seed + 1);
+    let count = [8, 11, 14, 17, 20][usize::try_from(seed / 2 % 5).unwrap()];
+    let mut points = Vec::new();
+    while points.len() < count {
+        let p = DVec3::new(numbers.signed(), numbers.signed(), numbers.signed());
+        if p.length() > 0.1 && p.length() < 1.0 {
+            points.push(p.normalize());
+        }
+    }
+    let hull = Polyhedron::convex_hull(&points).unwrap();
+    // all points on one side of the origin: no polar dual
+    let around = hull.facets().iter().all(|f| f.normal.dot(f.centroid) > 0.1);
+    match (seed % 2 == 0, around) {
+        (true, _) => hull,
+        (false, true) => hull.dual().unwrap(),
+        (false, false) => convex_solid(seed + 1000),
+    }
 }
