@@ -78,6 +78,22 @@ impl Hierarchy {
         }
     }
 
+    /// Calls `visit` for every cell in a leaf that meets the box, and for others near it.
+    pub fn in_box(&self, [low, high]: [DVec3; 2], mut visit: impl FnMut(usize)) {
+        let mut stack: Vec<usize> = (!self.nodes.is_empty()).then_some(0).into_iter().collect();
+        while let Some(at) = stack.pop() {
+            let node = &self.nodes[at];
+            if !(low.cmple(node.high).all() && high.cmpge(node.low).all()) {
+                continue;
+            }
+            if node.count == 0 {
+                stack.extend([node.start, at + 1]);
+            } else {
+                self.order[node.start..node.start + node.count].iter().for_each(|&c| visit(c));
+            }
+        }
+    }
+
     /// Calls `visit` for the cells whose boxes the ray meets, nearer boxes first; each call returns
     /// how far the ray is still of interest.
     pub fn along_ray(&self, ray: &Ray, mut visit: impl FnMut(usize) -> f64) {

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bernstein;
 mod cubic_root;
 mod hierarchy;
 mod linear_program;
@@ -8,7 +9,9 @@ mod ray;
 mod segment_polynomial;
 mod tessellate;
 mod tetrahedron;
+mod unfold;
 
+pub mod polyhedral;
 pub mod rational;
 
 pub use basemesh;

@@ -66,6 +66,19 @@ impl Ray {
         (near <= far).then_some(near)
     }
 
+    /// Where the ray meets a triangle, with the normal of the triangle, not of unit length.
+    pub(crate) fn meets(&self, [a, b, c]: [DVec3; 3]) -> Option<(f64, DVec3)> {
+        let normal = (b - a).cross(c - a);
+        let distance = (a - self.origin).dot(normal) / self.direction.dot(normal);
+        // also false where the ray is parallel to the plane
+        if !(distance >= 0.0 && distance.is_finite()) {
+            return None;
+        }
+        let (point, area) = (self.at(distance), normal.length_squared());
+        let sees = |p: DVec3, q: DVec3| (q - p).cross(point - p).dot(normal) >= -MARGIN * area;
+        (sees(a, b) && sees(b, c) && sees(c, a)).then_some((distance, normal))
+    }
+
     /// The part of the ray inside a tetrahedron.
     pub(crate) fn inside(&self, tetrahedron: &Tetrahedron) -> Option<Stretch> {
         let start = tetrahedron.barycentric(self.origin);

@@ -26,6 +26,21 @@ impl SegmentPolynomial {
         Self(FROM_VALUES.map(|row| row.iter().zip(values).map(|(w, v)| w * v).sum()))
     }
 
+    /// From its Bernstein coefficients, those of degree 3 or 5.
+    #[must_use]
+    pub(crate) fn from_bernstein(degree: usize, b: &[f64; 6]) -> Self {
+        let mut all = *b;
+        // each step of raising the degree averages neighbours
+        for n in degree..5 {
+            for i in (0..=n + 1).rev() {
+                let t = i as f64 / (n + 1) as f64;
+                let (left, right) = (if i > 0 { all[i - 1] } else { 0.0 }, all[i]);
+                all[i] = t * left + (1.0 - t) * if i <= n { right } else { 0.0 };
+            }
+        }
+        Self(all)
+    }
+
     /// Value at `s`.
     #[must_use]
     pub fn eval(&self, s: f64) -> f64 {

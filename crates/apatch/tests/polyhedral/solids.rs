@@ -1,0 +1,89 @@
+//! The fifteen solids in both schemes.
+
+use apatch::polyhedral::{PolyhedralSurface, Polyhedron, Scheme, Settings};
+
+use super::common::{closed_characteristic, jumps, settings, solids};
+
+/// Jumps of gradients, relative, and angles of normals.
+const GRADIENT: f64 = 1e-13;
+const ANGLE: f64 = 1e-12;
+/// Jumps of second derivatives, relative, and of curvatures.
+const HESSIAN: f64 = 1e-10;
+const CURVATURE: f64 = 1e-9;
+
+fn check(name: &str, solid: &Polyhedron, settings: &Settings) {
+    let surface = PolyhedralSurface::new(solid, settings).unwrap();
+    let report = surface.report();
+    assert!(report.is_clean(), "{name}: {report:?}");
+    assert!(report.bad_rays[1] > 1000, "{name}: rays were tried");
+    let jumps = jumps(&surface);
+    assert!(jumps.value <= 1e-14 && jumps.gradient <= GRADIENT, "{name}: {jumps:?}");
+    assert!(jumps.angle <= ANGLE, "{name}: {jumps:?}");
+    if settings.scheme == Scheme::C2Quintic {
+        assert!(jumps.hessian <= HESSIAN && jumps.curvature <= CURVATURE, "{name}: {jumps:?}");
+    }
+    for n in [5, 8] {
+        let mesh = surface.tessellate(n, n);
+        assert_eq!(mesh.missing, 0, "{name}: points off the surface");
+        assert_eq!(mesh.flipped_facets(), 0, "{name}: flipped facets");
+        let characteristic = closed_characteristic(&mesh);
+        assert_eq!(characteristic, Some(solid.euler_characteristic()), "{name}: closed mesh");
+        let volume = mesh.signed_volume();
+        assert!(volume > 0.0 && volume < 1.1 * solid.signed_volume(), "{name}: volume {volume}");
+    }
+}
+
+#[test]
+fn c1() {
+    for (name, solid) in solids() {
+        check(&name, &solid, &settings(Scheme::C1Cubic));
+    }
+}
+
+/// The two random solids with sharp corners need several quadratic programs.
+#[test]
+fn c2() {
+    for (name, solid) in solids().into_iter().filter(|(name, _)| !name.starts_with("random")) {
+        check(&name, &solid, &settings(Scheme::C2Quintic));
+    }
+}
+
+/// Run with `cargo test -p apatch --release -- --ignored`.
+#[test]
+#[ignore = "a minute in the dev profile"]
+fn c2_random() {
+    for (name, solid) in solids().into_iter().filter(|(name, _)| name.starts_with("random")) {
+        check(&name, &solid, &settings(Scheme::C2Quintic));
+    }
+}
+
+#[test]
+fn platonic_solids_become_their_inscribed_spheres() {
+    for (name, solid) in solids() {
+        let radius = solid.facets()[0].normal.dot(solid.facets()[0].centroid);
+        let regular = ["tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron"];
+        if !regular.contains(&&*name) {
+            continue;
+        }
+        for scheme in [Scheme::C1Cubic, Scheme::C2Quintic] {
+            let surface = PolyhedralSurface::new(&solid, &settings(scheme)).unwrap();
+            let mesh = surface.tessellate(6, 4);
+            let off = |p: &apatch::glam::DVec3| (p.length() / radius - 1.0).abs();
+            let worst = mesh.positions.iter().map(off).fold(0.0, f64::max);
+            assert!(worst <= 1e-10, "{name} {scheme:?}: {worst}");
+        }
+    }
+}
+
+#[test]
+fn two_sided_and_straight_parts_are_found() {
+    let counts = |name: &str| {
+        let solid = Polyhedron::named(name).unwrap();
+        let surface = PolyhedralSurface::new(&solid, &Settings::default()).unwrap();
+        let report = surface.report().clone();
+        (surface.hull().base_count(), report.edges, report.two_sided)
+    };
+    assert_eq!(counts("u-prism"), (12, [26, 2, 2], 4), "two guards in both U-shaped faces");
+    assert_eq!(counts("frame"), (16, [36, 4, 8], 8), "a ring of four guards in both faces with holes");
+    assert_eq!(counts("l-prism"), (8, [17, 1, 0], 2), "one guard in the kernel");
+}
