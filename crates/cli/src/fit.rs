@@ -17,6 +17,7 @@ use smoothpatch::{FieldSource, Method, report};
 
 use crate::arguments::EXIT_CODES;
 use crate::exit::{Outcome, complain};
+use crate::format_options::FormatOptions;
 use crate::progress;
 use crate::stdout::print;
 use crate::surface::{SURFACE, SurfaceArguments};
@@ -95,6 +96,9 @@ pub(crate) struct FitArguments {
     /// Each patch becomes N² triangles in .obj files
     #[arg(long, value_name = "N", default_value = "8", value_parser = values::divisions)]
     divisions: usize,
+
+    #[command(flatten)]
+    formats: FormatOptions,
 
     /// Also write everything that was measured, as JSON
     #[arg(long, value_name = "FILE.json")]

@@ -5,6 +5,7 @@ mod arguments;
 mod check;
 mod exit;
 mod fit;
+mod format_options;
 mod nagata;
 mod output_files;
 mod progress;

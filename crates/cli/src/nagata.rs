@@ -15,6 +15,7 @@ use smoothpatch::nagata_surface::report;
 
 use crate::arguments::EXIT_CODES;
 use crate::exit::{Outcome, complain};
+use crate::format_options::FormatOptions;
 use crate::output_files::OutputFiles;
 use crate::stdout::print;
 use crate::threads::ThreadArguments;
@@ -50,6 +51,9 @@ pub(crate) struct NagataArguments {
     #[arg(long, value_name = "N", default_value = "8", value_parser = values::divisions)]
     divisions: usize,
 
+    #[command(flatten)]
+    formats: FormatOptions,
+
     /// Also write everything that was measured, as JSON
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
@@ -84,8 +88,7 @@ pub(crate) fn run(arguments: &NagataArguments) -> anyhow::Result<Outcome> {
     let (report, figures) = report(&task.surface, target.as_ref().map(|t| t as _));
     let measured = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let mut written =
-        outputs::write(&files, &task.surface, &figures, arguments.cells, arguments.divisions)?;
+    let mut written = outputs::write(&files, &task.surface, &figures, arguments)?;
     if let Some(path) = &files.report {
         let file = ReportFile::new(&task, &report, &written).write(path)?;
         written.push(outputs::WrittenSurface { file, approximation: None });

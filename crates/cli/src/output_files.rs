@@ -16,6 +16,7 @@ pub(crate) struct OutputFiles {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
     Vtu,
+    Step,
     Obj,
 }
 
@@ -99,9 +100,10 @@ fn try_to_write(path: &Path) -> Result<(), WriteError> {
 fn format_of(path: &Path) -> anyhow::Result<Format> {
     match extension(path).as_str() {
         "vtu" => Ok(Format::Vtu),
+        "step" | "stp" => Ok(Format::Step),
         "obj" => Ok(Format::Obj),
         _ => bail!(
-            "-o {}: the name must end with .vtu (patches) or .obj (triangles)",
+            "-o {}: the name must end with .vtu or .step (patches) or .obj (triangles)",
             path.display()
         ),
     }

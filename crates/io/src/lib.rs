@@ -6,12 +6,15 @@ mod in_file;
 mod lattice;
 mod node_order;
 mod obj;
+mod patch_surface;
 mod patterns;
 mod polygon;
 mod samples;
 mod scene;
 mod shared_points;
+mod step;
 mod tessellate;
+mod text;
 mod vtu;
 
 pub use atomic::{WriteError, write_atomically};
@@ -25,9 +28,11 @@ pub use obj::{
     LargeFaces, ObjReadError, ObjWriteError, Polygons, read_obj, read_obj_file, read_polygons,
     read_polygons_file, write_obj, write_obj_creased, write_obj_tessellation,
 };
+pub use patch_surface::{PatchNet, PatchSurface, PatchSurfaceError};
 pub use polygon::Polygon;
 pub use samples::{CreasedTessellation, FacePoint, Samples};
 pub use scene::{Bounds, Method, Region, Scene, SceneError, SceneSurface};
+pub use step::{LengthUnit, StepCounts, StepError, StepFaces, StepOptions, StepSchema, write_step};
 pub use tessellate::{Tessellation, tessellate};
 pub use vtu::{
     CellData, CellKind, CellValues, Encoding, Grid, GridCell, VtuOptions, VtuReadError, VtuSurface,

@@ -5,11 +5,15 @@
 //! ```
 
 #[cfg(feature = "io")]
+mod exact;
+#[cfg(feature = "io")]
 mod files;
 #[cfg(feature = "io")]
 mod from_polygons;
 mod report;
 
+#[cfg(feature = "io")]
+pub use exact::{ExactError, patch_surface};
 #[cfg(feature = "io")]
 pub use files::{CurvedGrid, curved_grid, flat_gap, polygons, samples};
 #[cfg(feature = "io")]

@@ -5,26 +5,30 @@ use std::path::Path;
 use smoothpatch::G1Surface;
 use smoothpatch::basemesh::FaceMap;
 use smoothpatch::io::{
-    CellData, CellKind, CellValues, VtuOptions, tessellate, write_obj_tessellation, write_vtu,
+    CellData, CellKind, CellValues, PatchSurface, VtuOptions, tessellate, write_obj_tessellation,
+    write_step, write_vtu,
 };
 use smoothpatch::measure::FaceDeviation;
 
 use super::FitArguments;
+use crate::format_options::FormatOptions;
 use crate::output_files::{Format, OutputFiles, Written, write_file};
 
 /// What is written and where.
-pub(crate) struct Outputs {
+pub(crate) struct Outputs<'a> {
     files: OutputFiles,
+    formats: &'a FormatOptions,
     cells: CellKind,
     divisions: usize,
 }
 
-impl Outputs {
+impl<'a> Outputs<'a> {
     /// What the options ask for; only names are looked at.
-    pub(crate) fn new(arguments: &FitArguments) -> anyhow::Result<Self> {
+    pub(crate) fn new(arguments: &'a FitArguments) -> anyhow::Result<Self> {
         let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?;
         let (cells, divisions) = (arguments.cells.into(), arguments.divisions);
-        Ok(Self { files, cells, divisions })
+        let formats = &arguments.formats;
+        Ok(Self { files, formats, cells, divisions })
     }
 
     /// Checks that every file can be written.
@@ -53,6 +57,14 @@ impl Outputs {
         for (format, path) in &self.files.surfaces {
             written.push(match format {
                 Format::Vtu => write_file(path, |out| Ok(write_vtu(out, topology, nets, &vtu)?))?,
+                Format::Step => {
+                    let patches = PatchSurface::from_triangles(topology, nets)?;
+                    let options = self.formats.step(path);
+                    write_file(path, |out| {
+                        write_step(out, &patches, &options)?;
+                        Ok(())
+                    })?
+                }
                 Format::Obj => {
                     let triangles = tessellate(topology, nets, self.divisions);
                     write_file(path, |out| Ok(write_obj_tessellation(out, &triangles)?))?

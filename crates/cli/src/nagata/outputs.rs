@@ -1,10 +1,18 @@
 //! The files of a curved mesh.
 
-use smoothpatch::basemesh::{EdgeId, FaceId};
-use smoothpatch::io::{CellData, CellValues, Encoding, Grid, write_grid, write_obj_creased};
-use smoothpatch::nagata::{Continuity, NagataSurface};
-use smoothpatch::nagata_surface::{CurvedGrid, NagataFigures, curved_grid, flat_gap, samples};
+use std::path::Path;
 
+use anyhow::anyhow;
+use smoothpatch::basemesh::{EdgeId, FaceId};
+use smoothpatch::io::{
+    CellData, CellValues, Encoding, Grid, PatchSurface, write_grid, write_obj_creased, write_step,
+};
+use smoothpatch::nagata::{Continuity, NagataSurface};
+use smoothpatch::nagata_surface::{
+    CurvedGrid, ExactError, NagataFigures, curved_grid, flat_gap, patch_surface, samples,
+};
+
+use super::NagataArguments;
 use super::options::CellName;
 use crate::output_files::{Format, OutputFiles, Written, write_file};
 
@@ -30,9 +38,9 @@ pub(crate) fn write(
     files: &OutputFiles,
     surface: &NagataSurface,
     figures: &NagataFigures,
-    cells: CellName,
-    divisions: usize,
+    arguments: &NagataArguments,
 ) -> anyhow::Result<Vec<WrittenSurface>> {
+    let (cells, divisions) = (arguments.cells, arguments.divisions);
     let mut written = Vec::new();
     for (format, path) in &files.surfaces {
         written.push(match format {
@@ -41,6 +49,15 @@ pub(crate) fn write(
                 let file =
                     write_file(path, |out| Ok(write_grid(out, &grid, Encoding::default())?))?;
                 WrittenSurface { file, approximation }
+            }
+            Format::Step => {
+                let patches = exact(surface, path)?;
+                let options = arguments.formats.step(path);
+                let file = write_file(path, |out| {
+                    write_step(out, &patches, &options)?;
+                    Ok(())
+                })?;
+                WrittenSurface { file, approximation: None }
             }
             Format::Obj => {
                 let samples = samples(surface, divisions);
@@ -53,6 +70,17 @@ pub(crate) fn write(
         });
     }
     Ok(written)
+}
+
+/// The patches of a C0 surface for a file that holds them exactly.
+fn exact(surface: &NagataSurface, path: &Path) -> anyhow::Result<PatchSurface> {
+    patch_surface(surface).map_err(|error| {
+        let hint = match error {
+            ExactError::Rational => ", which is all that .step files hold; use --continuity c0",
+            _ => "",
+        };
+        anyhow!("cannot write {}: {error}{hint}", path.display())
+    })
 }
 
 fn grid(
