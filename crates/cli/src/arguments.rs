@@ -4,6 +4,7 @@ use clap::{Parser, Subcommand};
 
 use crate::check::CheckArguments;
 use crate::fit::FitArguments;
+use crate::join::JoinArguments;
 use crate::nagata::NagataArguments;
 use crate::query::QueryArguments;
 use crate::shapes::ShapesArguments;
@@ -22,6 +23,7 @@ pub(crate) enum Command {
     Fit(FitArguments),
     Check(CheckArguments),
     Nagata(NagataArguments),
+    Join(JoinArguments),
     Query(QueryArguments),
     Shapes(ShapesArguments),
 }

@@ -3,12 +3,28 @@
 use std::path::Path;
 
 use clap::{Args, ValueEnum};
-use smoothpatch::io::{LengthUnit, StepFaces, StepOptions, StepSchema};
+use smoothpatch::io::{LengthUnit, MshOptions, MshVersion, StepFaces, StepOptions, StepSchema};
+
+use crate::values;
 
 /// How surfaces are written.
 #[derive(Args)]
 #[group(skip)]
 pub(crate) struct FormatOptions {
+    /// The largest distance from the patches to the flat triangles of .obj, .ply, .stl and .glb files,
+    /// in diagonals of the bounding box, instead of --divisions: as few triangles as that takes
+    #[arg(long, value_name = "DISTANCE", conflicts_with = "divisions")]
+    #[arg(value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) chord_tolerance: Option<f64>,
+
+    /// The order of elements in .msh files, 1 to 10 [default: the degree of the patches]
+    #[arg(long, value_name = "N", value_parser = values::order)]
+    pub(crate) order: Option<usize>,
+
+    /// The version of .msh files
+    #[arg(long, value_enum, default_value_t = MshVersionName::V4, value_name = "VERSION")]
+    msh_version: MshVersionName,
+
     /// What becomes of a triangular patch in .step files: three regular faces, which every program
     /// reads, or one with a side of length zero, a third of the size
     #[arg(long, value_enum, default_value_t = StepFacesName::Quads, value_name = "KIND")]
@@ -24,6 +40,15 @@ pub(crate) struct FormatOptions {
 }
 
 impl FormatOptions {
+    /// What is written to a Gmsh file.
+    pub(crate) fn msh(&self) -> MshOptions {
+        let version = match self.msh_version {
+            MshVersionName::V4 => MshVersion::V4,
+            MshVersionName::V2 => MshVersion::V2,
+        };
+        MshOptions { version, ..MshOptions::default() }
+    }
+
     /// What is written to a STEP file with this name.
     pub(crate) fn step(&self, path: &Path) -> StepOptions {
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
@@ -45,6 +70,16 @@ impl FormatOptions {
             ..StepOptions::default()
         }
     }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MshVersionName {
+    /// For Gmsh 4
+    #[value(name = "4.1")]
+    V4,
+    /// For most other programs
+    #[value(name = "2.2")]
+    V2,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

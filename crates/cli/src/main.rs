@@ -6,6 +6,8 @@ mod check;
 mod exit;
 mod fit;
 mod format_options;
+mod formats;
+mod join;
 mod nagata;
 mod output_files;
 mod progress;
@@ -28,6 +30,7 @@ fn main() -> ExitCode {
         Command::Fit(arguments) => fit::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Nagata(arguments) => nagata::run(&arguments),
+        Command::Join(arguments) => join::run(&arguments),
         Command::Query(arguments) => query::run(&arguments),
         Command::Shapes(arguments) => shapes::run(&arguments),
     };

@@ -10,10 +10,12 @@ mod faces;
 mod flatness;
 mod normals;
 
-use bezier_core::{Barycentric, Corner, LocalEdge};
+use basemesh::{FaceId, FaceMap, Topology, VertexId};
+use bezier_core::{Barycentric, BezierTriangle, Corner, LocalEdge, MultiIndex};
 use glam::DVec3;
 
 use crate::obj::Polygons;
+use crate::polygon::Polygon;
 use crate::samples::{CreasedTessellation, FacePoint};
 
 pub use error::ChordError;
@@ -73,6 +75,48 @@ pub fn tessellate_within(
     result.tessellation.normals = normals.finish();
     result.tessellation.positions = edges.positions;
     Ok(result)
+}
+
+/// Cuts patches into as many flat triangles as it takes to stay within `tolerance`, a length; see
+/// [`tessellate_within`]. Patches that share a vertex or an edge share the normals there.
+///
+/// # Errors
+///
+/// [`ChordError`].
+///
+/// # Panics
+///
+/// If there is not one patch per face.
+pub fn tessellate_patches_within<const P: usize>(
+    topology: &Topology,
+    nets: &FaceMap<BezierTriangle<DVec3, P>>,
+    tolerance: f64,
+) -> Result<ChordTessellation, ChordError> {
+    assert_eq!(nets.len(), topology.face_count(), "one patch per face");
+    let corners: Vec<_> =
+        topology.faces().map(|face| topology.corners(face).map(VertexId::index)).collect();
+    let mut positions = vec![DVec3::ZERO; topology.vertex_count()];
+    let degree = BezierTriangle::<DVec3, P>::DEGREE;
+    for (face, patch) in nets.iter() {
+        for (corner, vertex) in Corner::ALL.into_iter().zip(corners[face.index()]) {
+            let index = MultiIndex::along(LocalEdge::starting_at(corner), degree, 0, 0);
+            positions[vertex] = patch[index];
+        }
+    }
+    let smooth = |corners: &[usize; 3]| Polygon::triangle(corners.map(Some));
+    let mesh = Polygons {
+        normals: vec![DVec3::ZERO; positions.len()],
+        positions,
+        corner_normals: corners.iter().map(smooth).collect(),
+        faces: corners.into_iter().map(Polygon::triangle).collect(),
+    };
+    tessellate_within(&mesh, tolerance, |face, at| {
+        let FacePoint::Triangle(at) = at else {
+            unreachable!("invariant: all faces are triangles")
+        };
+        let (point, area_normal) = nets[FaceId::new(face)].point_and_area_normal(at);
+        (point, area_normal.normalize_or_zero())
+    })
 }
 
 /// A point of a side, `t` from 0 at the corner where the side begins.

@@ -24,7 +24,7 @@ mod vtu;
 pub use atomic::{WriteError, write_atomically};
 pub use basemesh;
 pub use bezier_core;
-pub use chord::{ChordError, ChordTessellation, tessellate_within};
+pub use chord::{ChordError, ChordTessellation, tessellate_patches_within, tessellate_within};
 pub use curved_mesh::CurvedMesh;
 pub use glam;
 pub use in_file::InFile;
@@ -40,9 +40,10 @@ pub use polygon::Polygon;
 pub use samples::{CreasedTessellation, FacePoint, Samples};
 pub use scene::{Bounds, Method, Region, Scene, SceneError, SceneSurface};
 pub use step::{LengthUnit, StepCounts, StepError, StepFaces, StepOptions, StepSchema, write_step};
-pub use tessellate::{Tessellation, tessellate};
+pub use tessellate::{Tessellation, tessellate, tessellation_gap};
 pub use triangles::{TrianglesError, write_glb, write_ply, write_stl};
 pub use vtu::{
-    CellData, CellKind, CellValues, Encoding, Grid, GridCell, VtuOptions, VtuReadError, VtuSurface,
-    VtuWriteError, read_grid, read_grid_file, read_vtu, read_vtu_file, write_grid, write_vtu,
+    CellData, CellKind, CellValues, Encoding, Grid, GridCell, JoinError, VtuOptions, VtuPiece,
+    VtuReadError, VtuSurface, VtuWriteError, read_grid, read_grid_file, read_piece_file, read_vtu,
+    read_vtu_file, write_grid, write_pvtu, write_vtu,
 };

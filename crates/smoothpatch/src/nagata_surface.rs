@@ -15,7 +15,9 @@ mod report;
 #[cfg(feature = "io")]
 pub use exact::{ExactError, patch_surface};
 #[cfg(feature = "io")]
-pub use files::{CurvedGrid, curved_grid, flat_gap, polygons, samples};
+pub use files::{
+    CurvedGrid, chord_tessellation, curved_grid, curved_mesh, flat_gap, polygons, samples,
+};
 #[cfg(feature = "io")]
 pub use from_polygons::{NagataError, NormalSource, from_polygons};
 pub use report::{EdgeFlaw, NagataFigures, NagataReport, report};

@@ -3,16 +3,21 @@
 use std::path::Path;
 
 use smoothpatch::G1Surface;
-use smoothpatch::basemesh::FaceMap;
+use smoothpatch::basemesh::glam::DVec3;
+use smoothpatch::basemesh::{FaceId, FaceMap, Topology};
+use smoothpatch::bezier_core::SepticTriangle;
 use smoothpatch::io::{
-    CellData, CellKind, CellValues, PatchSurface, VtuOptions, tessellate, write_obj_tessellation,
-    write_step, write_vtu,
+    CellData, CellKind, CellValues, ChordTessellation, CurvedMesh, FacePoint, PatchSurface,
+    VtuOptions, tessellate, tessellate_patches_within, tessellation_gap, write_vtu,
 };
 use smoothpatch::measure::FaceDeviation;
 
 use super::FitArguments;
 use crate::format_options::FormatOptions;
-use crate::output_files::{Format, OutputFiles, Written, write_file};
+use crate::formats;
+use crate::output_files::{Format, OutputFiles, TriangleFormat, Written, write_file};
+
+type Nets = FaceMap<SepticTriangle>;
 
 /// What is written and where.
 pub(crate) struct Outputs<'a> {
@@ -59,19 +64,45 @@ impl<'a> Outputs<'a> {
                 Format::Vtu => write_file(path, |out| Ok(write_vtu(out, topology, nets, &vtu)?))?,
                 Format::Step => {
                     let patches = PatchSurface::from_triangles(topology, nets)?;
-                    let options = self.formats.step(path);
-                    write_file(path, |out| {
-                        write_step(out, &patches, &options)?;
-                        Ok(())
-                    })?
+                    formats::step(path, &patches, self.formats)?
                 }
-                Format::Obj => {
-                    let triangles = tessellate(topology, nets, self.divisions);
-                    write_file(path, |out| Ok(write_obj_tessellation(out, &triangles)?))?
-                }
+                Format::Msh => self.msh(path, topology, nets)?,
+                Format::Triangles(format) => self.triangles(path, *format, surface)?,
             });
         }
         Ok(written)
+    }
+}
+
+impl Outputs<'_> {
+    fn msh(&self, path: &Path, topology: &Topology, nets: &Nets) -> anyhow::Result<Written> {
+        let order = self.formats.order.unwrap_or(SepticTriangle::<DVec3>::DEGREE);
+        let mesh = CurvedMesh::from_patches(topology, nets, order);
+        let gap = (order < SepticTriangle::<DVec3>::DEGREE).then(|| {
+            mesh.gap(|face, at| match at {
+                FacePoint::Triangle(at) => nets[FaceId::new(face)].eval(at),
+                FacePoint::Quad(_) => unreachable!("invariant: all patches are triangles"),
+            })
+        });
+        formats::msh(path, &mesh, gap, self.formats)
+    }
+
+    fn triangles(
+        &self,
+        path: &Path,
+        format: TriangleFormat,
+        surface: &G1Surface,
+    ) -> anyhow::Result<Written> {
+        let (topology, nets) = (surface.mesh.topology(), &surface.patches.nets);
+        if let Some(tolerance) = self.formats.chord_tolerance {
+            let length = tolerance * surface.mesh.diagonal();
+            let ChordTessellation { tessellation, gap, .. } =
+                tessellate_patches_within(topology, nets, length)?;
+            return formats::triangles(path, format, &tessellation, gap);
+        }
+        let flat = tessellate(topology, nets, self.divisions);
+        let gap = tessellation_gap(nets, self.divisions, &flat);
+        formats::triangles(path, format, &flat.into(), gap)
     }
 }
 
