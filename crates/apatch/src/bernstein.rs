@@ -114,8 +114,8 @@ pub(crate) fn jet(degree: usize, weights: &[f64], x: [f64; 4]) -> Jet {
         index[b] += 1;
         rank(index)
     };
-    let second = [0, 1, 2, 3]
-        .map(|a| [0, 1, 2, 3].map(|b| n * (n - 1.0) * net.weights[unit(a, b)]));
+    let second =
+        [0, 1, 2, 3].map(|a| [0, 1, 2, 3].map(|b| n * (n - 1.0) * net.weights[unit(a, b)]));
     let linear = net.at(x);
     let first = [0, 1, 2, 3].map(|a| n * linear.weights[a]);
     Jet { value: linear.at(x).weights[0], first, second }
@@ -123,7 +123,12 @@ pub(crate) fn jet(degree: usize, weights: &[f64], x: [f64; 4]) -> Jet {
 
 /// Bernstein coefficients along the line from `x` to `u`.
 #[inline]
-pub(crate) fn along(degree: usize, weights: &[f64], x: [f64; 4], u: [f64; 4]) -> [f64; MAX_DEGREE + 1] {
+pub(crate) fn along(
+    degree: usize,
+    weights: &[f64],
+    x: [f64; 4],
+    u: [f64; 4],
+) -> [f64; MAX_DEGREE + 1] {
     let mut coefficients = [0.0; MAX_DEGREE + 1];
     let mut net = Net::new(degree, weights);
     for (l, b) in coefficients.iter_mut().enumerate().take(degree + 1) {

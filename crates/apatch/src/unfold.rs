@@ -32,8 +32,7 @@ impl Tessellation {
     /// whose chords say nothing about the surface.
     pub(crate) fn unfold(&mut self) {
         for _ in 0..MAX_PASSES {
-            let bad: Vec<usize> =
-                (0..self.triangles.len()).filter(|&t| self.is_bad(t)).collect();
+            let bad: Vec<usize> = (0..self.triangles.len()).filter(|&t| self.is_bad(t)).collect();
             let mut by_side = self.sides();
             let mut changed = false;
             for t in bad {

@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::apatch::ApatchArguments;
 use crate::check::CheckArguments;
 use crate::fit::FitArguments;
+use crate::join::JoinArguments;
 use crate::nagata::NagataArguments;
 use crate::query::QueryArguments;
 use crate::shapes::ShapesArguments;
@@ -24,6 +25,7 @@ pub(crate) enum Command {
     Check(CheckArguments),
     Nagata(NagataArguments),
     Apatch(ApatchArguments),
+    Join(JoinArguments),
     Query(QueryArguments),
     Shapes(ShapesArguments),
 }

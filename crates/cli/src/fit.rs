@@ -17,6 +17,7 @@ use smoothpatch::{FieldSource, Method, report};
 
 use crate::arguments::EXIT_CODES;
 use crate::exit::{Outcome, complain};
+use crate::format_options::FormatOptions;
 use crate::progress;
 use crate::stdout::print;
 use crate::surface::{SURFACE, SurfaceArguments};
@@ -84,7 +85,8 @@ pub(crate) struct FitArguments {
     #[arg(long, value_enum, default_value_t = MethodName::Refined)]
     method: MethodName,
 
-    /// Where to write: .vtu for the patches, .obj for a triangulation; can be repeated
+    /// Where to write: .vtu or .step for the patches, .msh for curved elements, .obj, .ply, .stl or
+    /// .glb for flat triangles; can be repeated
     #[arg(short, long = "output", value_name = "FILE", required = true)]
     outputs: Vec<PathBuf>,
 
@@ -92,9 +94,12 @@ pub(crate) struct FitArguments {
     #[arg(long, value_enum, default_value_t = CellName::Bezier)]
     cells: CellName,
 
-    /// Each patch becomes N² triangles in .obj files
+    /// Each patch becomes N² triangles in files of flat triangles
     #[arg(long, value_name = "N", default_value = "8", value_parser = values::divisions)]
     divisions: usize,
+
+    #[command(flatten)]
+    formats: FormatOptions,
 
     /// Also write everything that was measured, as JSON
     #[arg(long, value_name = "FILE.json")]

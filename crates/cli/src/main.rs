@@ -6,6 +6,9 @@ mod arguments;
 mod check;
 mod exit;
 mod fit;
+mod format_options;
+mod formats;
+mod join;
 mod nagata;
 mod output_files;
 mod progress;
@@ -29,6 +32,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Nagata(arguments) => nagata::run(&arguments),
         Command::Apatch(arguments) => apatch::run(&arguments),
+        Command::Join(arguments) => join::run(&arguments),
         Command::Query(arguments) => query::run(&arguments),
         Command::Shapes(arguments) => shapes::run(&arguments),
     };

@@ -15,6 +15,7 @@ use smoothpatch::nagata_surface::report;
 
 use crate::arguments::EXIT_CODES;
 use crate::exit::{Outcome, complain};
+use crate::format_options::FormatOptions;
 use crate::output_files::OutputFiles;
 use crate::stdout::print;
 use crate::threads::ThreadArguments;
@@ -38,7 +39,8 @@ pub(crate) struct NagataArguments {
     #[arg(long, value_name = "SCENE.ron")]
     reference: Option<PathBuf>,
 
-    /// Where to write: .vtu for curved cells, .obj for flat triangles with normals; can be repeated
+    /// Where to write: .vtu or .msh for curved cells, .step for exact patches (C0 only), .obj, .ply,
+    /// .stl or .glb for flat triangles; can be repeated
     #[arg(short, long = "output", value_name = "FILE", required = true)]
     outputs: Vec<PathBuf>,
 
@@ -46,9 +48,13 @@ pub(crate) struct NagataArguments {
     #[arg(long, value_enum, default_value_t = CellName::Quadratic)]
     cells: CellName,
 
-    /// Each edge becomes N parts in .obj files, and in .vtu files wherever cells are not exact
+    /// Each edge becomes N parts in files of flat triangles, and in .vtu files wherever cells are
+    /// not exact
     #[arg(long, value_name = "N", default_value = "8", value_parser = values::divisions)]
     divisions: usize,
+
+    #[command(flatten)]
+    formats: FormatOptions,
 
     /// Also write everything that was measured, as JSON
     #[arg(long, value_name = "FILE.json")]
@@ -84,11 +90,9 @@ pub(crate) fn run(arguments: &NagataArguments) -> anyhow::Result<Outcome> {
     let (report, figures) = report(&task.surface, target.as_ref().map(|t| t as _));
     let measured = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let mut written =
-        outputs::write(&files, &task.surface, &figures, arguments.cells, arguments.divisions)?;
+    let mut written = outputs::write(&files, &task.surface, &figures, arguments)?;
     if let Some(path) = &files.report {
-        let file = ReportFile::new(&task, &report, &written).write(path)?;
-        written.push(outputs::WrittenSurface { file, approximation: None });
+        written.push(ReportFile::new(&task, &report, &written).write(path)?);
     }
     if !arguments.quiet {
         let seconds = [built, measured, start.elapsed().as_secs_f64()];

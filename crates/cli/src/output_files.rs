@@ -7,6 +7,8 @@ use anyhow::bail;
 use serde::Serialize;
 use smoothpatch::io::{WriteError, write_atomically};
 
+use crate::table::{Table, bytes, of_diagonal};
+
 /// Where results go.
 pub(crate) struct OutputFiles {
     pub(crate) surfaces: Vec<(Format, PathBuf)>,
@@ -16,14 +18,60 @@ pub(crate) struct OutputFiles {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
     Vtu,
+    Step,
+    Msh,
+    Triangles(TriangleFormat),
+}
+
+/// A format of flat triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum TriangleFormat {
     Obj,
+    Ply,
+    Stl,
+    Glb,
 }
 
 /// A file that is complete.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Written {
     pub(crate) file: PathBuf,
     pub(crate) bytes: u64,
+    /// What stands in the file instead of the patches, if it does not hold them exactly.
+    #[serde(flatten)]
+    pub(crate) approximation: Option<Approximation>,
+}
+
+/// What stands in a file instead of the patches.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct Approximation {
+    /// "flat triangles" or so.
+    #[serde(skip)]
+    pub(crate) kind: &'static str,
+    /// Number of them.
+    #[serde(rename = "cells")]
+    pub(crate) count: usize,
+    /// Largest distance from the patches that was measured. Unit: length.
+    #[serde(rename = "sampling_deviation")]
+    pub(crate) gap: f64,
+}
+
+impl Written {
+    /// The same file, with what it holds.
+    pub(crate) fn holding(self, approximation: Approximation) -> Self {
+        Self { approximation: Some(approximation), ..self }
+    }
+
+    /// Lines of the table.
+    pub(crate) fn rows(&self, table: &mut Table, diagonal: f64) {
+        table.row("wrote", format!("{} ({})", self.file.display(), bytes(self.bytes)));
+        if let Some(Approximation { kind, count, gap }) = self.approximation {
+            table.row(
+                "",
+                format!("{count} {kind}, {} from the patches", of_diagonal(gap / diagonal)),
+            );
+        }
+    }
 }
 
 impl OutputFiles {
@@ -46,7 +94,12 @@ impl OutputFiles {
         if extension(path) != "csv" {
             bail!("-o {}: the name of a table must end with .csv", path.display());
         }
-        Ok(Self { surfaces: Vec::new(), report: Some(path.to_owned()) })
+        Ok(Self::single(path))
+    }
+
+    /// One file of another kind.
+    pub(crate) fn single(path: &Path) -> Self {
+        Self { surfaces: Vec::new(), report: Some(path.to_owned()) }
     }
 
     fn files(&self) -> impl Iterator<Item = &PathBuf> {
@@ -83,7 +136,7 @@ pub(crate) fn write_file(
     contents: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> anyhow::Result<Written> {
     write_atomically(path, contents)?;
-    Ok(Written { file: path.to_owned(), bytes: path.metadata()?.len() })
+    Ok(Written { file: path.to_owned(), bytes: path.metadata()?.len(), approximation: None })
 }
 
 /// Everything that writing does before and after the contents are made.
@@ -99,9 +152,15 @@ fn try_to_write(path: &Path) -> Result<(), WriteError> {
 fn format_of(path: &Path) -> anyhow::Result<Format> {
     match extension(path).as_str() {
         "vtu" => Ok(Format::Vtu),
-        "obj" => Ok(Format::Obj),
+        "step" | "stp" => Ok(Format::Step),
+        "msh" => Ok(Format::Msh),
+        "obj" => Ok(Format::Triangles(TriangleFormat::Obj)),
+        "ply" => Ok(Format::Triangles(TriangleFormat::Ply)),
+        "stl" => Ok(Format::Triangles(TriangleFormat::Stl)),
+        "glb" => Ok(Format::Triangles(TriangleFormat::Glb)),
         _ => bail!(
-            "-o {}: the name must end with .vtu (patches) or .obj (triangles)",
+            "-o {}: the name must end with .vtu, .step or .msh (patches), or with .obj, .ply, .stl \
+             or .glb (triangles)",
             path.display()
         ),
     }

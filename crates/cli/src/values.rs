@@ -2,6 +2,7 @@
 
 use smoothpatch::basemesh::glam::DVec3;
 use smoothpatch::implicit::Aabb;
+use smoothpatch::io::MAX_MSH_ORDER;
 
 /// Fewest faces of a closed triangle mesh.
 const MIN_FACES: usize = 4;
@@ -74,6 +75,14 @@ pub(crate) fn divisions(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(count @ 1..=256) => Ok(count),
         _ => Err("give a whole number from 1 to 256".into()),
+    }
+}
+
+/// Order of the elements of Gmsh.
+pub(crate) fn order(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(order @ 1..=MAX_MSH_ORDER) => Ok(order),
+        _ => Err(format!("give a whole number from 1 to {MAX_MSH_ORDER}")),
     }
 }
 

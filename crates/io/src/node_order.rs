@@ -43,6 +43,31 @@ pub fn node_order(degree: usize) -> Vec<usize> {
     order
 }
 
+/// The rank of each node of a quadrilateral of this degree in the order of Gmsh; ranks count rows of
+/// `degree + 1` nodes from the first side to the opposite one.
+///
+/// Corners first, then the inner nodes of the sides 0-1, 1-2, 2-3, 3-0 in that direction, then the
+/// interior as a quadrilateral of two degrees less, in the same order. (VTK's order is another one.)
+#[must_use]
+pub fn quad_node_order(degree: usize) -> Vec<usize> {
+    let mut order = Vec::with_capacity((degree + 1) * (degree + 1));
+    for (inset, side) in (0..=degree).rev().step_by(2).enumerate() {
+        let mut push = |i: usize, j: usize| order.push((inset + j) * (degree + 1) + inset + i);
+        if side == 0 {
+            push(0, 0);
+            continue;
+        }
+        for (i, j) in [(0, 0), (side, 0), (side, side), (0, side)] {
+            push(i, j);
+        }
+        (1..side).for_each(|step| push(step, 0));
+        (1..side).for_each(|step| push(side, step));
+        (1..side).for_each(|step| push(side - step, side));
+        (1..side).for_each(|step| push(0, side - step));
+    }
+    order
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,6 +115,18 @@ mod tests {
             let mut order = node_order(degree);
             order.sort_unstable();
             assert!(order.into_iter().eq(0..MultiIndex::count(degree)), "degree {degree}");
+        }
+    }
+
+    #[test]
+    fn quads() {
+        assert_eq!(quad_node_order(2), [0, 2, 8, 6, 1, 5, 7, 3, 4]);
+        let third = [0, 3, 15, 12, 1, 2, 7, 11, 14, 13, 8, 4, 5, 6, 10, 9];
+        assert_eq!(quad_node_order(3), third);
+        for degree in 0..=10 {
+            let mut order = quad_node_order(degree);
+            order.sort_unstable();
+            assert!(order.into_iter().eq(0..(degree + 1) * (degree + 1)), "degree {degree}");
         }
     }
 

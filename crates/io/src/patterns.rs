@@ -89,6 +89,11 @@ impl Pattern {
         squares.map(|[i, j]| NODES.map(|[di, dj]| (2 * j + dj) * row + 2 * i + di)).collect()
     }
 
+    /// Steps along each side.
+    pub(crate) fn divisions(&self) -> usize {
+        self.divisions
+    }
+
     fn half(&self) -> usize {
         assert!(self.divisions.is_multiple_of(2), "quadratic cells take two divisions each");
         self.divisions / 2

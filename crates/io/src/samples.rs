@@ -3,6 +3,7 @@
 use bezier_core::Barycentric;
 use glam::DVec3;
 
+use crate::curved_mesh::CurvedMesh;
 use crate::obj::Polygons;
 use crate::patterns::Pattern;
 use crate::shared_points::SharedPoints;
@@ -141,6 +142,22 @@ impl Samples {
             triangles.map(GridCell::QuadraticTriangle).collect(),
             quads.map(GridCell::QuadraticQuad).collect(),
         ])
+    }
+
+    /// One curved element for each face, through all its samples: the order is the number of
+    /// divisions.
+    #[must_use]
+    pub fn curved_mesh(&self) -> CurvedMesh {
+        let mut mesh = CurvedMesh {
+            order: self.patterns[0].divisions(),
+            points: self.positions.clone(),
+            ..CurvedMesh::default()
+        };
+        for ((_, ids), &is_quad) in self.faces().zip(&self.is_quad) {
+            let nodes = if is_quad { &mut mesh.quads } else { &mut mesh.triangles };
+            nodes.extend(ids.iter().map(|&[point, _]| point));
+        }
+        mesh
     }
 
     /// A grid with these cells on each triangle and on each quadrilateral, by ranks.

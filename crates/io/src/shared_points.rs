@@ -127,7 +127,7 @@ impl<'a> SharedPoints<'a> {
 }
 
 /// All edges by their sorted vertices, and whether each is smooth.
-fn edges(mesh: &Polygons) -> (Vec<[usize; 2]>, Vec<bool>) {
+pub(crate) fn edges(mesh: &Polygons) -> (Vec<[usize; 2]>, Vec<bool>) {
     let mut sides: Vec<Side> = Vec::new();
     for (face, normals) in mesh.faces.iter().zip(&mesh.corner_normals) {
         let (corners, normals) = (face.corners(), normals.corners());

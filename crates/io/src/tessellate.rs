@@ -58,6 +58,38 @@ pub fn tessellate<const P: usize>(
     Tessellation { positions, normals, triangles }
 }
 
+/// The largest distance between the flat triangles of [`tessellate`] and the patches at the same
+/// parameters: at the middles of their sides and at their centres.
+///
+/// # Panics
+///
+/// If `flat` is not the tessellation of these patches with these divisions.
+#[must_use]
+pub fn tessellation_gap<const P: usize>(
+    nets: &FaceMap<BezierTriangle<DVec3, P>>,
+    divisions: usize,
+    flat: &Tessellation,
+) -> f64 {
+    let parameters: Vec<_> = Barycentric::lattice(divisions).map(Barycentric::to_array).collect();
+    let pattern = triangle_pattern(divisions);
+    let third = 1.0 / 3.0;
+    let places = [[0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5], [third; 3]];
+    assert_eq!(flat.triangles.len(), pattern.len() * nets.len(), "triangles of each patch");
+    let mut gap: f64 = 0.0;
+    for ((_, patch), triangles) in nets.iter().zip(flat.triangles.chunks_exact(pattern.len())) {
+        for (ranks, corners) in pattern.iter().zip(triangles) {
+            let [a, b, c] = corners.map(|id| flat.positions[id]);
+            for [u, v, w] in places {
+                let [p, q, r] = ranks.map(|rank| parameters[rank]);
+                let at = std::array::from_fn(|k| p[k] * u + q[k] * v + r[k] * w);
+                let on_patch = patch.eval(Barycentric::from_array(at));
+                gap = gap.max(on_patch.distance(a * u + b * v + c * w));
+            }
+        }
+    }
+    gap
+}
+
 /// Ranks of the corners of the small triangles in one face.
 pub(crate) fn triangle_pattern(divisions: usize) -> Vec<[usize; 3]> {
     let raised = |m: MultiIndex, i, j, k| MultiIndex::new(m.i + i, m.j + j, m.k + k).rank();

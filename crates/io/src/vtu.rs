@@ -10,6 +10,7 @@ mod document;
 mod error;
 mod grid;
 mod interpolation;
+mod join;
 mod read;
 mod write;
 
@@ -19,6 +20,7 @@ use glam::DVec3;
 
 pub use error::{VtuReadError, VtuWriteError};
 pub use grid::{Grid, GridCell, read_grid, read_grid_file, write_grid};
+pub use join::{JoinError, VtuPiece, read_piece_file, write_pvtu};
 pub use read::{read_vtu, read_vtu_file};
 pub use write::write_vtu;
 

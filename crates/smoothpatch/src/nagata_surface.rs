@@ -5,13 +5,19 @@
 //! ```
 
 #[cfg(feature = "io")]
+mod exact;
+#[cfg(feature = "io")]
 mod files;
 #[cfg(feature = "io")]
 mod from_polygons;
 mod report;
 
 #[cfg(feature = "io")]
-pub use files::{CurvedGrid, curved_grid, flat_gap, polygons, samples};
+pub use exact::{ExactError, patch_surface};
+#[cfg(feature = "io")]
+pub use files::{
+    CurvedGrid, chord_tessellation, curved_grid, curved_mesh, flat_gap, polygons, samples,
+};
 #[cfg(feature = "io")]
 pub use from_polygons::{NagataError, NormalSource, from_polygons};
 pub use report::{EdgeFlaw, NagataFigures, NagataReport, report};

@@ -190,11 +190,8 @@ fn coplanarity(hull: &Hull) -> f64 {
 
 /// Pairs of tetrahedra with common inner points.
 fn overlaps(hull: &Hull, size: f64) -> Vec<Finding> {
-    let tetrahedra: Vec<Prepared> = hull
-        .cells
-        .iter()
-        .map(|&cell| Prepared::new(hull.tetrahedron(cell).corners))
-        .collect();
+    let tetrahedra: Vec<Prepared> =
+        hull.cells.iter().map(|&cell| Prepared::new(hull.tetrahedron(cell).corners)).collect();
     let boxes: Vec<_> = tetrahedra.iter().map(|t| t.bounds).collect();
     let tree = Hierarchy::new(&boxes);
     let mut findings = Vec::new();

@@ -80,9 +80,7 @@ fn neighbours(hull: &Hull) -> Vec<[usize; 2]> {
 
 /// Pairs of tetrahedra over the two triangles at a straight edge.
 fn across_straight_edges(hull: &Hull) -> Vec<[usize; 2]> {
-    let cell_of = |t: usize, side: Side| {
-        hull.cells.iter().position(|&c| c == Cell::Face(t, side))
-    };
+    let cell_of = |t: usize, side: Side| hull.cells.iter().position(|&c| c == Cell::Face(t, side));
     let mut pairs = Vec::new();
     for edge in hull.edges.iter().filter(|e| e.convexity == Convexity::Zero) {
         let cells = edge.triangles.map(|t| Side::BOTH.into_iter().find_map(|s| cell_of(t, s)));
@@ -104,9 +102,8 @@ fn join(hull: &Hull, dofs: &Dofs, first: usize, second: usize, rows: &mut Vec<Ro
         None => Some(tetrahedron.barycentric(hull.points[corners[1][c]])),
     });
     for index in indices(DEGREE) {
-        let off: Vec<[f64; 4]> = (0..4)
-            .flat_map(|c| std::iter::repeat_n(coordinates[c], index[c]).flatten())
-            .collect();
+        let off: Vec<[f64; 4]> =
+            (0..4).flat_map(|c| std::iter::repeat_n(coordinates[c], index[c]).flatten()).collect();
         if !(1..=2).contains(&off.len()) {
             continue;
         }

@@ -122,7 +122,10 @@ impl Weights<'_> {
             [(a * right[0] + c * right[1]) / square, (b * right[0] + d * right[1]) / square]
         } else {
             let determinant = a * d - b * c;
-            [(d * right[0] - b * right[1]) / determinant, (a * right[1] - c * right[0]) / determinant]
+            [
+                (d * right[0] - b * right[1]) / determinant,
+                (a * right[1] - c * right[0]) / determinant,
+            ]
         };
         let triangles = self.hull.edges[e].triangles;
         for (t, x) in triangles.into_iter().zip(solution) {
@@ -221,7 +224,13 @@ impl Weights<'_> {
     }
 
     /// Least number 4 of corner `p`, for number 5 over the edge from it to `r`, times the sign.
-    fn four_bound(&self, t: usize, side: Side, upper: &Upper, [p, r, k]: [usize; 3]) -> Option<f64> {
+    fn four_bound(
+        &self,
+        t: usize,
+        side: Side,
+        upper: &Upper,
+        [p, r, k]: [usize; 3],
+    ) -> Option<f64> {
         let ([x, y, o, q], length) = self.split_in(t, side, k)?;
         let [x, y] = if p == k { [x, y] } else { [y, x] };
         let HullTriangle { corners, apices, .. } = self.hull.triangles[t];
@@ -260,9 +269,7 @@ impl Weights<'_> {
         let made = "invariant: cells have apices";
         let upper = self.upper[t][side.index()].as_ref().expect(made);
         let apex = apices[side.index()].expect(made);
-        let one = |p: usize, x: usize| {
-            self.one(corners[p], if x == 3 { apex } else { corners[x] })
-        };
+        let one = |p: usize, x: usize| self.one(corners[p], if x == 3 { apex } else { corners[x] });
         match [i, j, k] {
             [3, 3, 3] => upper.six,
             [p, 3, 3] => upper.four[p],
@@ -317,7 +324,14 @@ impl Weights<'_> {
 
     /// The weight of `x`, `y` and the split point by the C1 condition across the triangle's
     /// tetrahedron; places as in [`Self::in_edge`]. For `y` the split point, `w(x q s)`.
-    fn in_edge_with(&self, e: usize, side: Side, which: usize, split: &Split, xy: [usize; 2]) -> f64 {
+    fn in_edge_with(
+        &self,
+        e: usize,
+        side: Side,
+        which: usize,
+        split: &Split,
+        xy: [usize; 2],
+    ) -> f64 {
         let edge = &self.hull.edges[e];
         let t = edge.triangles[which];
         let ends = edge.ends.map(|p| self.corner_of(t, p));

@@ -26,12 +26,8 @@ pub(crate) struct Dofs {
 
 impl Dofs {
     pub(crate) fn new(hull: &Hull) -> Self {
-        let straight: Vec<[usize; 2]> = hull
-            .edges
-            .iter()
-            .filter(|e| e.convexity == Convexity::Zero)
-            .map(|e| e.ends)
-            .collect();
+        let straight: Vec<[usize; 2]> =
+            hull.edges.iter().filter(|e| e.convexity == Convexity::Zero).map(|e| e.ends).collect();
         let mut by_points: HashMap<[usize; DEGREE], usize> = HashMap::new();
         let (mut of_cell, mut fixed) = (Vec::new(), Vec::new());
         for &cell in &hull.cells {

@@ -89,7 +89,13 @@ mod tests {
         let mut orders: Vec<Vec<usize>> = vec![Vec::new()];
         for n in 0..DEGREE {
             let longer = |o: &Vec<usize>| {
-                (0..=n).map(|at| { let mut o = o.clone(); o.insert(at, n); o }).collect::<Vec<_>>()
+                (0..=n)
+                    .map(|at| {
+                        let mut o = o.clone();
+                        o.insert(at, n);
+                        o
+                    })
+                    .collect::<Vec<_>>()
             };
             orders = orders.iter().flat_map(longer).collect();
         }

@@ -59,9 +59,9 @@ fn cut(points: &[DVec2], mut polygon: Vec<usize>) -> Option<Vec<[usize; 3]>> {
             // a thin ear would be a triangle without a plane
             fatness(corners(i)) > 1e-6 && !others.into_iter().any(|&k| inside(points[k]))
         };
-        let ear = (0..n).filter(is_ear).max_by(|&i, &j| {
-            fatness(corners(i)).total_cmp(&fatness(corners(j))).then(j.cmp(&i))
-        })?;
+        let ear = (0..n)
+            .filter(is_ear)
+            .max_by(|&i, &j| fatness(corners(i)).total_cmp(&fatness(corners(j))).then(j.cmp(&i)))?;
         triangles.push(corners(ear));
         polygon.remove(ear);
     }

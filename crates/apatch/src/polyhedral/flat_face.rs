@@ -27,8 +27,7 @@ impl FlatEdge {
     fn is_crossed(&self, p: DVec2, q: DVec2) -> bool {
         let side = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a);
         let split = |x: f64, y: f64| (x > 0.0 && y < 0.0) || (x < 0.0 && y > 0.0);
-        split(self.depth(p), self.depth(q))
-            && split(side(p, q, self.from), side(p, q, self.to))
+        split(self.depth(p), self.depth(q)) && split(side(p, q, self.from), side(p, q, self.to))
     }
 }
 
@@ -110,8 +109,7 @@ impl FlatFace {
         let slack = -ON_LINE * self.size;
         let at: Vec<DVec2> = corners.iter().map(|&c| self.at_corner(c)[1].from).collect();
         let around = |e: &FlatEdge| at.iter().all(|p| e.depth(*p) >= slack);
-        let mut lines: Vec<FlatEdge> =
-            corners.iter().flat_map(|&c| self.at_corner(c)).collect();
+        let mut lines: Vec<FlatEdge> = corners.iter().flat_map(|&c| self.at_corner(c)).collect();
         lines.extend(self.edges.iter().flatten().filter(|e| around(e)));
         let (p, depth) = deepest(&lines, self.size)?;
         corners.iter().all(|&c| self.guards(p, c)).then_some((p, depth))
@@ -134,7 +132,9 @@ fn deepest(lines: &[FlatEdge], size: f64) -> Option<(DVec2, f64)> {
     for i in 0..lines.len() {
         for j in 0..i {
             for k in 0..j {
-                let Some((p, depth)) = equidistant([lines[i], lines[j], lines[k]]) else { continue };
+                let Some((p, depth)) = equidistant([lines[i], lines[j], lines[k]]) else {
+                    continue;
+                };
                 let known = best.first().map_or(slack, |b| b.1);
                 if depth < known - slack || lines.iter().any(|e| e.depth(p) < depth - slack) {
                     continue;
@@ -189,8 +189,14 @@ mod tests {
     #[test]
     fn nothing_inside_all_sides_of_a_u() {
         let u = [
-            [0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [2.0, 2.0],
-            [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0],
+            [0.0, 0.0],
+            [3.0, 0.0],
+            [3.0, 2.0],
+            [2.0, 2.0],
+            [2.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 2.0],
+            [0.0, 2.0],
         ];
         assert_eq!(deepest(&polygon(&u), 3.0), None);
     }

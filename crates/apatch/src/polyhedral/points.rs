@@ -100,7 +100,8 @@ impl PolyhedralSurface {
         if !(clean[self.degree] > 0.0) {
             return Meets::Wrongly;
         }
-        let falls = clean[..=self.degree].windows(2).skip_while(|p| p[0] <= 0.0).any(|p| p[1] < 0.0);
+        let falls =
+            clean[..=self.degree].windows(2).skip_while(|p| p[0] <= 0.0).any(|p| p[1] < 0.0);
         if !falls || self.roots(&clean) == 1 { Meets::Once } else { Meets::Wrongly }
     }
 
@@ -118,9 +119,8 @@ impl PolyhedralSurface {
         let step = move |i: usize| i as f64 / n as f64;
         let face = move || {
             (0..=n).flat_map(move |i| {
-                (0..=n - i).map(move |j| {
-                    [[step(n - i - j), step(i), step(j), 0.0], [0.0, 0.0, 0.0, 1.0]]
-                })
+                (0..=n - i)
+                    .map(move |j| [[step(n - i - j), step(i), step(j), 0.0], [0.0, 0.0, 0.0, 1.0]])
             })
         };
         let edge = move || {

@@ -80,10 +80,12 @@ impl HullTree<'_> {
             let far = best.as_ref().map_or(f64::INFINITY, |b| b.distance);
             let hit = match self.places[index] {
                 Place::Cell(cell) => self.cast_cell(ray, cell),
-                Place::Flat(t) => ray.meets(self.surface.triangle(t)).map(|(distance, gradient)| {
-                    let cell = Place::Flat(t);
-                    RayHit { distance, point: ray.at(distance), gradient, cell }
-                }),
+                Place::Flat(t) => {
+                    ray.meets(self.surface.triangle(t)).map(|(distance, gradient)| {
+                        let cell = Place::Flat(t);
+                        RayHit { distance, point: ray.at(distance), gradient, cell }
+                    })
+                }
             };
             if let Some(hit) = hit.filter(|h| h.distance < far) {
                 best = Some(hit);

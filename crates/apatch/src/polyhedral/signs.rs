@@ -49,9 +49,7 @@ fn is_two_sided(hull: &Hull, cell: Cell) -> bool {
 /// Corners of a triangle's tetrahedron opposite to straight edges.
 fn straight_corners(hull: &Hull, cell: Cell) -> Vec<usize> {
     let Cell::Face(t, _) = cell else { return Vec::new() };
-    let straight = |k: &usize| {
-        hull.edges[hull.triangles[t].edges[*k]].convexity == Convexity::Zero
-    };
+    let straight = |k: &usize| hull.edges[hull.triangles[t].edges[*k]].convexity == Convexity::Zero;
     (0..3).filter(straight).map(|k| (k + 2) % 3).collect()
 }
 
@@ -78,7 +76,8 @@ pub(crate) fn ray_cuts(
                         let of = |c: &[usize], x: &[f64]| bernstein(c, x);
                         let (lower, upper) = (cell.base(), 4 - cell.base());
                         debug_assert_eq!(lower + upper, 4, "four corners");
-                        let weight = of(&i[..lower], &foot[..lower]) * of(&i[lower..], &top[lower..]);
+                        let weight =
+                            of(&i[..lower], &foot[..lower]) * of(&i[lower..], &top[lower..]);
                         (dof_at(&dofs.of_cell[index], i), cell.side().sign() * weight)
                     })
                     .collect();

@@ -167,9 +167,10 @@ impl Builder<'_> {
         let at = self.solid.position(vertex);
         let heights: Vec<f64> =
             guards.iter().map(|&g| (self.guards.points[g] - at).dot(normal)).collect();
-        let least = heights.iter().copied().fold(f64::INFINITY, |least, t| {
-            if t.abs() < least.abs() { t } else { least }
-        });
+        let least = heights
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, |least, t| if t.abs() < least.abs() { t } else { least });
         if heights.iter().any(|t| !(t * least > 0.0)) {
             return 0.0;
         }

@@ -132,9 +132,8 @@ impl PolyhedralSurface {
         let jet = bernstein::jet(self.degree, self.weights(cell), at);
         let gradients = tetrahedron.gradients();
         let columns = jet.second.map(|row| gradient(row, &gradients));
-        let hessian = [0, 1, 2].map(|axis| {
-            gradient([0, 1, 2, 3].map(|c| columns[c][axis]), &gradients)
-        });
+        let hessian =
+            [0, 1, 2].map(|axis| gradient([0, 1, 2, 3].map(|c| columns[c][axis]), &gradients));
         CellJet {
             point: tetrahedron.point(at),
             value: jet.value,

@@ -79,9 +79,8 @@ impl PolyhedralSurface {
         if let [Some(first), Some(second)] = [cell(0), cell(1)] {
             let apex = [0.0, 0.0, 0.0, 1.0];
             let split = [0.0, 0.0, 1.0, 0.0];
-            [(first, apex), (first, split), (second, apex)].map(|(cell, top)| {
-                row(&mut |x| self.push(cell, [1.0 - x, x, 0.0, 0.0], top, out))
-            })
+            [(first, apex), (first, split), (second, apex)]
+                .map(|(cell, top)| row(&mut |x| self.push(cell, [1.0 - x, x, 0.0, 0.0], top, out)))
         } else {
             // the edge is on the surface
             let [p, q] = [a, b].map(|i| self.hull.points[i]);

@@ -112,13 +112,14 @@ pub(crate) fn jumps(surface: &PolyhedralSurface) -> Jumps {
                 let foot = at(corners[0], [p, q, top], [1.0 - s, s, 0.0]);
                 let top = at(corners[0], [p, q, top], [0.0, 0.0, 1.0]);
                 let Some(hit) = surface.point(i, foot, top) else { continue };
-                let other = corners[1].map(|c| {
-                    corners[0].iter().position(|&d| d == c).map_or(0.0, |k| hit.at[k])
-                });
+                let other = corners[1]
+                    .map(|c| corners[0].iter().position(|&d| d == c).map_or(0.0, |k| hit.at[k]));
                 let (a, b) = (surface.jet(i, hit.at), surface.jet(j, other));
-                found.angle = found.angle.max(a.gradient.angle_between(b.gradient).min(
-                    a.gradient.normalize().distance(b.gradient.normalize()),
-                ));
+                found.angle = found.angle.max(
+                    a.gradient
+                        .angle_between(b.gradient)
+                        .min(a.gradient.normalize().distance(b.gradient.normalize())),
+                );
                 let [h, g] = curvatures(a.gradient, a.hessian);
                 let [h2, g2] = curvatures(b.gradient, b.hessian);
                 let scale = 1.0 + h.abs().max(g.abs());

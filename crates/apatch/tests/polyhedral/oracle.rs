@@ -64,9 +64,8 @@ fn the_cube() {
         let upper = list(&sample["upper"]);
         let place = |p: usize| wanted.iter().position(|&w| w == p).unwrap_or(0);
         let foot = corners.map(|p| base.get(place(p)).map_or(0.0, number));
-        let top = corners.map(|p| {
-            place(p).checked_sub(base.len()).map_or(0.0, |k| number(&upper[k]))
-        });
+        let top =
+            corners.map(|p| place(p).checked_sub(base.len()).map_or(0.0, |k| number(&upper[k])));
         let hit = surface.point(*cell, foot, top).expect("a point of the surface");
         assert!((hit.t - number(&sample["t"])).abs() <= 1e-11, "{sample}: {hit:?}");
         assert!(hit.point.distance(vector(&sample["point"])) <= 1e-11, "{sample}: {hit:?}");

@@ -84,6 +84,10 @@ fn two_sided_and_straight_parts_are_found() {
         (surface.hull().base_count(), report.edges, report.two_sided)
     };
     assert_eq!(counts("u-prism"), (12, [26, 2, 2], 4), "two guards in both U-shaped faces");
-    assert_eq!(counts("frame"), (16, [36, 4, 8], 8), "a ring of four guards in both faces with holes");
+    assert_eq!(
+        counts("frame"),
+        (16, [36, 4, 8], 8),
+        "a ring of four guards in both faces with holes"
+    );
     assert_eq!(counts("l-prism"), (8, [17, 1, 0], 2), "one guard in the kernel");
 }

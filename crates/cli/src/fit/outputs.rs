@@ -3,28 +3,37 @@
 use std::path::Path;
 
 use smoothpatch::G1Surface;
-use smoothpatch::basemesh::FaceMap;
+use smoothpatch::basemesh::glam::DVec3;
+use smoothpatch::basemesh::{FaceId, FaceMap, Topology};
+use smoothpatch::bezier_core::SepticTriangle;
 use smoothpatch::io::{
-    CellData, CellKind, CellValues, VtuOptions, tessellate, write_obj_tessellation, write_vtu,
+    CellData, CellKind, CellValues, ChordTessellation, CurvedMesh, FacePoint, PatchSurface,
+    VtuOptions, tessellate, tessellate_patches_within, tessellation_gap, write_vtu,
 };
 use smoothpatch::measure::FaceDeviation;
 
 use super::FitArguments;
-use crate::output_files::{Format, OutputFiles, Written, write_file};
+use crate::format_options::FormatOptions;
+use crate::formats;
+use crate::output_files::{Format, OutputFiles, TriangleFormat, Written, write_file};
+
+type Nets = FaceMap<SepticTriangle>;
 
 /// What is written and where.
-pub(crate) struct Outputs {
+pub(crate) struct Outputs<'a> {
     files: OutputFiles,
+    formats: &'a FormatOptions,
     cells: CellKind,
     divisions: usize,
 }
 
-impl Outputs {
+impl<'a> Outputs<'a> {
     /// What the options ask for; only names are looked at.
-    pub(crate) fn new(arguments: &FitArguments) -> anyhow::Result<Self> {
+    pub(crate) fn new(arguments: &'a FitArguments) -> anyhow::Result<Self> {
         let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?;
         let (cells, divisions) = (arguments.cells.into(), arguments.divisions);
-        Ok(Self { files, cells, divisions })
+        let formats = &arguments.formats;
+        Ok(Self { files, formats, cells, divisions })
     }
 
     /// Checks that every file can be written.
@@ -53,13 +62,47 @@ impl Outputs {
         for (format, path) in &self.files.surfaces {
             written.push(match format {
                 Format::Vtu => write_file(path, |out| Ok(write_vtu(out, topology, nets, &vtu)?))?,
-                Format::Obj => {
-                    let triangles = tessellate(topology, nets, self.divisions);
-                    write_file(path, |out| Ok(write_obj_tessellation(out, &triangles)?))?
+                Format::Step => {
+                    let patches = PatchSurface::from_triangles(topology, nets)?;
+                    formats::step(path, &patches, self.formats)?
                 }
+                Format::Msh => self.msh(path, topology, nets)?,
+                Format::Triangles(format) => self.triangles(path, *format, surface)?,
             });
         }
         Ok(written)
+    }
+}
+
+impl Outputs<'_> {
+    fn msh(&self, path: &Path, topology: &Topology, nets: &Nets) -> anyhow::Result<Written> {
+        let order = self.formats.order.unwrap_or(SepticTriangle::<DVec3>::DEGREE);
+        let mesh = CurvedMesh::from_patches(topology, nets, order);
+        let gap = (order < SepticTriangle::<DVec3>::DEGREE).then(|| {
+            mesh.gap(|face, at| match at {
+                FacePoint::Triangle(at) => nets[FaceId::new(face)].eval(at),
+                FacePoint::Quad(_) => unreachable!("invariant: all patches are triangles"),
+            })
+        });
+        formats::msh(path, &mesh, gap, self.formats)
+    }
+
+    fn triangles(
+        &self,
+        path: &Path,
+        format: TriangleFormat,
+        surface: &G1Surface,
+    ) -> anyhow::Result<Written> {
+        let (topology, nets) = (surface.mesh.topology(), &surface.patches.nets);
+        if let Some(tolerance) = self.formats.chord_tolerance {
+            let length = tolerance * surface.mesh.diagonal();
+            let ChordTessellation { tessellation, gap, .. } =
+                tessellate_patches_within(topology, nets, length)?;
+            return formats::triangles(path, format, &tessellation, gap);
+        }
+        let flat = tessellate(topology, nets, self.divisions);
+        let gap = tessellation_gap(nets, self.divisions, &flat);
+        formats::triangles(path, format, &flat.into(), gap)
     }
 }
 

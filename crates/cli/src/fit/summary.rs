@@ -5,7 +5,7 @@ use smoothpatch::{Adaptation, Distance, Report, Stage, Tolerance};
 
 use super::task::{BaseMesh, Task, method_name};
 use crate::output_files::Written;
-use crate::table::{Table, bytes, degrees, grid, length, of_diagonal, yes_no};
+use crate::table::{Table, degrees, grid, length, of_diagonal, yes_no};
 use crate::values::region_text;
 
 pub(crate) fn summary(
@@ -31,8 +31,8 @@ pub(crate) fn summary(
     let total = report.seconds.values().sum::<f64>() + seconds_writing;
     table.row("total", format!("{total:.3} s"));
     table.gap();
-    for Written { file, bytes: size } in written {
-        table.row("wrote", format!("{} ({})", file.display(), bytes(*size)));
+    for file in written {
+        file.rows(&mut table, report.deviation.diagonal);
     }
     format!("{}, {} method\n{table}", task.chosen.scene.name, method_name(task.method))
 }

@@ -1,38 +1,33 @@
 //! The files of a curved mesh.
 
+use std::path::Path;
+
+use anyhow::anyhow;
 use smoothpatch::basemesh::{EdgeId, FaceId};
-use smoothpatch::io::{CellData, CellValues, Encoding, Grid, write_grid, write_obj_creased};
+use smoothpatch::io::{
+    CellData, CellValues, ChordTessellation, CreasedTessellation, Encoding, Grid, PatchSurface,
+    write_grid,
+};
 use smoothpatch::nagata::{Continuity, NagataSurface};
-use smoothpatch::nagata_surface::{CurvedGrid, NagataFigures, curved_grid, flat_gap, samples};
+use smoothpatch::nagata_surface::{
+    CurvedGrid, ExactError, NagataFigures, chord_tessellation, curved_grid, curved_mesh, flat_gap,
+    patch_surface, samples,
+};
 
+use super::NagataArguments;
 use super::options::CellName;
-use crate::output_files::{Format, OutputFiles, Written, write_file};
-
-/// A file, and how far what it holds is from the patches if it does not hold them exactly.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct WrittenSurface {
-    pub(crate) file: Written,
-    pub(crate) approximation: Option<Approximation>,
-}
-
-/// What stands in a file instead of the patches.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Approximation {
-    /// "flat triangles" or so.
-    pub(crate) cells: &'static str,
-    pub(crate) count: usize,
-    /// Largest distance that was measured. Unit: length.
-    pub(crate) gap: f64,
-}
+use crate::formats;
+use crate::output_files::{Approximation, Format, OutputFiles, Written, write_file};
 
 /// Writes the surface in all formats asked for.
 pub(crate) fn write(
     files: &OutputFiles,
     surface: &NagataSurface,
     figures: &NagataFigures,
-    cells: CellName,
-    divisions: usize,
-) -> anyhow::Result<Vec<WrittenSurface>> {
+    arguments: &NagataArguments,
+) -> anyhow::Result<Vec<Written>> {
+    let (cells, divisions) = (arguments.cells, arguments.divisions);
+    let formats = &arguments.formats;
     let mut written = Vec::new();
     for (format, path) in &files.surfaces {
         written.push(match format {
@@ -40,19 +35,54 @@ pub(crate) fn write(
                 let (grid, approximation) = grid(surface, figures, cells, divisions);
                 let file =
                     write_file(path, |out| Ok(write_grid(out, &grid, Encoding::default())?))?;
-                WrittenSurface { file, approximation }
+                Written { approximation, ..file }
             }
-            Format::Obj => {
-                let samples = samples(surface, divisions);
-                let triangles = samples.tessellation();
-                let file = write_file(path, |out| Ok(write_obj_creased(out, &triangles)?))?;
-                let (count, gap) = (triangles.triangles.len(), flat_gap(surface, &samples));
-                let cells = "flat triangles";
-                WrittenSurface { file, approximation: Some(Approximation { cells, count, gap }) }
+            Format::Step => formats::step(path, &exact(surface, path)?, formats)?,
+            Format::Msh => {
+                let order = formats.order.unwrap_or(2);
+                let (mesh, gap) = curved_mesh(surface, order);
+                let gap = (!is_exact(surface) || order < 2).then_some(gap);
+                formats::msh(path, &mesh, gap, formats)?
+            }
+            Format::Triangles(format) => {
+                let (triangles, gap) = triangles(surface, divisions, formats.chord_tolerance)?;
+                formats::triangles(path, *format, &triangles, gap)?
             }
         });
     }
     Ok(written)
+}
+
+/// Whether the patches are quadratic polynomials.
+fn is_exact(surface: &NagataSurface) -> bool {
+    surface.settings().continuity == Continuity::Position
+}
+
+/// Flat triangles, and how far they are from the patches.
+fn triangles(
+    surface: &NagataSurface,
+    divisions: usize,
+    chord_tolerance: Option<f64>,
+) -> anyhow::Result<(CreasedTessellation, f64)> {
+    if let Some(tolerance) = chord_tolerance {
+        let length = tolerance * surface.mesh().diagonal();
+        let ChordTessellation { tessellation, gap, .. } = chord_tessellation(surface, length)?;
+        return Ok((tessellation, gap));
+    }
+    let samples = samples(surface, divisions);
+    let gap = flat_gap(surface, &samples);
+    Ok((samples.tessellation(), gap))
+}
+
+/// The patches of a C0 surface for a file that holds them exactly.
+fn exact(surface: &NagataSurface, path: &Path) -> anyhow::Result<PatchSurface> {
+    patch_surface(surface).map_err(|error| {
+        let hint = match error {
+            ExactError::Rational => ", which is all that .step files hold; use --continuity c0",
+            _ => "",
+        };
+        anyhow!("cannot write {}: {error}{hint}", path.display())
+    })
 }
 
 fn grid(
@@ -64,16 +94,19 @@ fn grid(
     let (mut grid, cells_of_face, approximation) = match cells {
         CellName::Quadratic => {
             let CurvedGrid { grid, cells_of_face, gap } = curved_grid(surface, divisions);
-            let is_exact = surface.settings().continuity == Continuity::Position;
-            let (cells, count) = ("quadratic cells", grid.cells.len());
-            (grid, cells_of_face, (!is_exact).then_some(Approximation { cells, count, gap }))
+            let (kind, count) = ("quadratic cells", grid.cells.len());
+            (
+                grid,
+                cells_of_face,
+                (!is_exact(surface)).then_some(Approximation { kind, count, gap }),
+            )
         }
         CellName::Flat => {
             let samples = samples(surface, divisions);
             let (grid, cells_of_face) = samples.flat_grid();
-            let (cells, count) = ("flat triangles", grid.cells.len());
+            let (kind, count) = ("flat triangles", grid.cells.len());
             let gap = flat_gap(surface, &samples);
-            (grid, cells_of_face, Some(Approximation { cells, count, gap }))
+            (grid, cells_of_face, Some(Approximation { kind, count, gap }))
         }
     };
     let face_of: Vec<usize> = (0..)

@@ -6,7 +6,6 @@ use serde::Serialize;
 use smoothpatch::nagata::Settings;
 use smoothpatch::nagata_surface::NagataReport;
 
-use super::outputs::WrittenSurface;
 use super::task::{NormalsUsed, Task};
 use crate::output_files::{Written, write_file};
 
@@ -23,31 +22,11 @@ pub(crate) struct ReportFile<'a> {
     settings: Settings,
     #[serde(flatten)]
     report: &'a NagataReport,
-    files: Vec<FileEntry<'a>>,
-}
-
-#[derive(Serialize)]
-struct FileEntry<'a> {
-    #[serde(flatten)]
-    file: &'a Written,
-    /// Largest distance of the cells from the patches, a length; missing if they are exact.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    sampling_deviation: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cells: Option<usize>,
+    files: &'a [Written],
 }
 
 impl<'a> ReportFile<'a> {
-    pub(crate) fn new(
-        task: &'a Task,
-        report: &'a NagataReport,
-        files: &'a [WrittenSurface],
-    ) -> Self {
-        let entry = |written: &'a WrittenSurface| FileEntry {
-            file: &written.file,
-            sampling_deviation: written.approximation.map(|approximation| approximation.gap),
-            cells: written.approximation.map(|approximation| approximation.count),
-        };
+    pub(crate) fn new(task: &'a Task, report: &'a NagataReport, files: &'a [Written]) -> Self {
         Self {
             program: concat!("smoothpatch ", env!("CARGO_PKG_VERSION")),
             mesh: &task.mesh,
@@ -56,7 +35,7 @@ impl<'a> ReportFile<'a> {
             reference: task.reference.as_ref().map(|(name, _)| name.as_str()),
             settings: task.settings,
             report,
-            files: files.iter().map(entry).collect(),
+            files,
         }
     }
 

@@ -3,16 +3,16 @@
 use smoothpatch::nagata::{Continuity, TangentPlanes};
 use smoothpatch::nagata_surface::NagataReport;
 
-use super::outputs::WrittenSurface;
 use super::report_file::normals_text;
 use super::task::Task;
-use crate::table::{Table, bytes, degrees, grid, length, of_diagonal, yes_no};
+use crate::output_files::Written;
+use crate::table::{Table, degrees, grid, length, of_diagonal, yes_no};
 
 /// `seconds`: building, measuring, writing.
 pub(crate) fn summary(
     task: &Task,
     report: &NagataReport,
-    written: &[WrittenSurface],
+    written: &[Written],
     seconds: [f64; 3],
 ) -> String {
     let mut table = Table::default();
@@ -31,13 +31,8 @@ pub(crate) fn summary(
         table.row(stage, format!("{seconds:.3} s"));
     }
     table.gap();
-    for WrittenSurface { file, approximation } in written {
-        table.row("wrote", format!("{} ({})", file.file.display(), bytes(file.bytes)));
-        if let Some(cells) = approximation {
-            let of_patches = of_diagonal(cells.gap / report.diagonal);
-            let text = format!("{} {}, {of_patches} from the patches", cells.count, cells.cells);
-            table.row("", text);
-        }
+    for file in written {
+        file.rows(&mut table, report.diagonal);
     }
     format!("{}, {}\n{table}", task.mesh.display(), kind(task))
 }

@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use basemesh::FaceId;
 use basemesh::glam::DVec3;
-use io::{FacePoint, Grid, Polygon, Polygons, Samples};
+use io::{ChordError, ChordTessellation, CurvedMesh, FacePoint, Grid, Polygon, Polygons, Samples};
 use nagata::{Continuity, NagataSurface, NormalId, Patch};
 
 /// The mesh and the normals of a surface, normals by id.
@@ -83,6 +83,41 @@ pub fn curved_grid(surface: &NagataSurface, divisions: usize) -> CurvedGrid {
 pub fn flat_gap(surface: &NagataSurface, samples: &Samples) -> f64 {
     let patch = patches(surface);
     samples.flat_gap(|face, at| point(&patch(face), at))
+}
+
+/// A surface as one curved element for each face, of any order, and the largest distance between the
+/// two, measured as in [`CurvedMesh::gap`]: round-off for C0 patches from order 2 on.
+///
+/// # Panics
+///
+/// If `order` is zero.
+#[must_use]
+pub fn curved_mesh(surface: &NagataSurface, order: usize) -> (CurvedMesh, f64) {
+    let curved = samples(surface, order).curved_mesh();
+    let patch = patches(surface);
+    let is_quad = |face: &FaceId| surface.mesh().corners(*face).len() == 4;
+    let (quads, triangles): (Vec<_>, Vec<_>) = surface.mesh().faces().partition(is_quad);
+    let gap = curved.gap(|element, at| {
+        let faces = if matches!(at, FacePoint::Quad(_)) { &quads } else { &triangles };
+        point(&patch(faces[element].index()), at)
+    });
+    (curved, gap)
+}
+
+/// Flat triangles within a distance of the surface; see [`tessellate_within`](io::tessellate_within).
+///
+/// # Errors
+///
+/// [`ChordError`].
+pub fn chord_tessellation(
+    surface: &NagataSurface,
+    tolerance: f64,
+) -> Result<ChordTessellation, ChordError> {
+    let patch = patches(surface);
+    io::tessellate_within(&polygons(surface), tolerance, |face, at| {
+        let patch = patch(face);
+        (point(&patch, at), normal(&patch, at).unwrap_or(DVec3::ZERO))
+    })
 }
 
 /// The patch of a face, which is made once as long as the same face is asked for.
