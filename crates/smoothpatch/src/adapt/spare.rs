@@ -10,7 +10,7 @@ use crate::error::FitError;
 
 /// Parts of the faces that a trial keeps, in percent: each as long as it succeeds. Keeping more is
 /// not worth a fit.
-const KEPT: [usize; 3] = [60, 77, 88];
+const KEPT: [usize; 4] = [60, 77, 88, 94];
 
 /// The fit with the fewest faces that are found to be enough, from one that is within the tolerance.
 ///
