@@ -58,6 +58,15 @@ pub(crate) fn cubic(hull: &Hull, shape: &ShapeControl) -> Vec<f64> {
     hull.cells.iter().flat_map(|&cell| weights.of_cell(cell)).collect()
 }
 
+impl Hull {
+    /// The weights of the C1 cubic for all cells, 20 each: see
+    /// [`PolyhedralSurface::weights`](super::PolyhedralSurface::weights).
+    #[must_use]
+    pub fn cubic_weights(&self, shape: &ShapeControl) -> Vec<f64> {
+        cubic(self, shape)
+    }
+}
+
 /// Mean of the tensions at the faces that a triangle touches.
 fn tension(hull: &Hull, shape: &ShapeControl, t: usize) -> f64 {
     let corners = hull.triangles[t].corners;
