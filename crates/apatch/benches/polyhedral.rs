@@ -36,7 +36,8 @@ fn c1(c: &mut Criterion) {
         group.bench_with_input(BenchmarkId::new("whole", faces), &solid, |b, solid| {
             b.iter(|| PolyhedralSurface::new(black_box(solid), &settings(Scheme::C1Cubic)));
         });
-        let surface = PolyhedralSurface::new(&solid, &settings(Scheme::C1Cubic)).expect("a surface");
+        let surface =
+            PolyhedralSurface::new(&solid, &settings(Scheme::C1Cubic)).expect("a surface");
         group.bench_with_input(BenchmarkId::new("weights", faces), &surface, |b, surface| {
             b.iter(|| black_box(surface).hull().cubic_weights(&Settings::default().shape));
         });

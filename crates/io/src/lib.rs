@@ -34,7 +34,8 @@ pub use msh::{MAX_MSH_ORDER, MshError, MshOptions, MshVersion, write_msh};
 pub use node_order::{node_order, quad_node_order};
 pub use obj::{
     LargeFaces, ObjReadError, ObjWriteError, Polygons, read_faces, read_faces_file, read_obj,
-    read_obj_file, read_polygons, read_polygons_file, write_obj, write_obj_creased, write_obj_tessellation,
+    read_obj_file, read_polygons, read_polygons_file, write_obj, write_obj_creased,
+    write_obj_tessellation,
 };
 pub use off::{Faces, OffReadError, read_off, read_off_file};
 pub use patch_surface::{PatchNet, PatchSurface, PatchSurfaceError};

@@ -122,9 +122,8 @@ fn parse(bytes: &[u8]) -> Result<Faces, OffReadError> {
     header(&mut lines)?;
     let mut lines = lines.into_iter();
     let last = text.lines().count();
-    let mut next = |expected: &'static str| {
-        lines.next().ok_or(OffReadError::Short { line: last, expected })
-    };
+    let mut next =
+        |expected: &'static str| lines.next().ok_or(OffReadError::Short { line: last, expected });
     let (line, words) = next("the numbers of vertices and faces")?;
     let [vertices, faces] = [0, 1].map(|k| count(line, &words, k, "a number of elements"));
     let (vertices, faces) = (vertices?, faces?);
@@ -176,8 +175,11 @@ fn position(line: usize, vertex: usize, words: &[&str]) -> Result<DVec3, OffRead
     let number = |k: usize| {
         let expected = "a coordinate";
         let text = word(line, words, k, expected)?;
-        text.parse::<f64>()
-            .map_err(|_| OffReadError::Number { line, text: text.to_owned(), expected })
+        text.parse::<f64>().map_err(|_| OffReadError::Number {
+            line,
+            text: text.to_owned(),
+            expected,
+        })
     };
     let position = DVec3::new(number(0)?, number(1)?, number(2)?);
     if position.is_finite() {

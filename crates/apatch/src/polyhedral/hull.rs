@@ -99,8 +99,7 @@ impl Hull {
     /// [`HullError::Triangulation`]; [`HullError::Setting`] without one normal and origin a point.
     pub fn new(skeleton: Skeleton) -> Result<Self, HullError> {
         let count = skeleton.points.len();
-        for (name, n) in
-            [("normals", skeleton.normals.len()), ("origins", skeleton.origins.len())]
+        for (name, n) in [("normals", skeleton.normals.len()), ("origins", skeleton.origins.len())]
         {
             if n != count {
                 let (value, expected) = (n as f64, "one for each point");

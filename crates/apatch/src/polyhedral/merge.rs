@@ -159,9 +159,8 @@ mod tests {
         let keyhole = |f: &super::super::Facet| match &*f.loops {
             [outer, hole] => {
                 // from the first corner to the nearest of the hole and back
-                let near = |&&i: &&usize| {
-                    frame.vertices()[i].distance_squared(frame.vertices()[outer[0]])
-                };
+                let near =
+                    |&&i: &&usize| frame.vertices()[i].distance_squared(frame.vertices()[outer[0]]);
                 let start = hole.iter().min_by(|a, b| near(a).total_cmp(&near(b))).expect("one");
                 let at = hole.iter().position(|v| v == start).expect("in the hole");
                 let around = (0..=hole.len()).map(|i| hole[(at + i) % hole.len()]);
@@ -193,8 +192,8 @@ mod tests {
                 .collect()
         };
         let polygons: Vec<_> = cube.facets().iter().map(|f| split(&f.loops[0])).collect();
-        let solid = Polyhedron::from_polygons(vertices, &polygons, &Planarity::default())
-            .expect("a solid");
+        let solid =
+            Polyhedron::from_polygons(vertices, &polygons, &Planarity::default()).expect("a solid");
         assert_eq!((solid.facets().len(), solid.edge_count()), (6, 12));
     }
 }

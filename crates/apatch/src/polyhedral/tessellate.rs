@@ -27,12 +27,7 @@ pub struct Sampled {
 }
 
 impl Sampled {
-    fn push(
-        &mut self,
-        point: DVec3,
-        normal: DVec3,
-        place: Option<(usize, [f64; 4])>,
-    ) -> usize {
+    fn push(&mut self, point: DVec3, normal: DVec3, place: Option<(usize, [f64; 4])>) -> usize {
         self.places.push(place);
         self.mesh.push_point(point, normal)
     }
@@ -149,14 +144,7 @@ impl PolyhedralSurface {
     }
 
     /// The two strips over an edge, from its first triangle to its second.
-    fn push_strips(
-        &self,
-        e: usize,
-        side: Side,
-        across: usize,
-        points: &Points,
-        out: &mut Sampled,
-    ) {
+    fn push_strips(&self, e: usize, side: Side, across: usize, points: &Points, out: &mut Sampled) {
         let rows = &points.edges[e];
         let n = rows[0].len() - 1;
         for which in 0..2 {

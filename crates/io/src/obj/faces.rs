@@ -76,7 +76,8 @@ mod tests {
 
     #[test]
     fn a_pentagon_and_what_is_wrong() {
-        let text = "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1 5//1\nv 0 1 0\n";
+        let text =
+            "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1 5//1\nv 0 1 0\n";
         let faces = read_faces(&mut text.as_bytes()).expect("a face");
         assert_eq!((faces.positions.len(), &faces.faces[0]), (5, &vec![0, 1, 2, 3, 4]));
         for (from, to, message) in [
