@@ -59,7 +59,7 @@ pub(crate) fn conditions(hull: &Hull, dofs: &Dofs) -> Vec<Row> {
 }
 
 /// Pairs of cells with a common triangle.
-fn neighbours(hull: &Hull) -> Vec<[usize; 2]> {
+pub(crate) fn neighbours(hull: &Hull) -> Vec<[usize; 2]> {
     let mut open: HashMap<[usize; 3], usize> = HashMap::new();
     let mut pairs = Vec::new();
     for (index, &cell) in hull.cells.iter().enumerate() {

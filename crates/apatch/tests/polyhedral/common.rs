@@ -7,8 +7,7 @@ use apatch::glam::{DMat3, DVec3};
 use apatch::polyhedral::{Planarity, PolyhedralSurface, Polyhedron, Scheme, Settings};
 use apatch::rational::Side;
 use serde_json::Value;
-
-use crate::numbers::Numbers;
+use testkit::solids::sphere_points;
 
 pub(crate) fn read(name: &str) -> Value {
     let folder = "/../../fixtures/oracle/polyhedra-a-patch/";
@@ -156,15 +155,8 @@ pub(crate) fn closed_characteristic(mesh: &Tessellation) -> Option<isize> {
 
 /// A random convex solid: even seeds have triangles for faces, odd ones corners of three edges.
 pub(crate) fn convex_solid(seed: u64) -> Polyhedron {
-    let mut numbers = Numbers::new(seed + 1);
     let count = [8, 11, 14, 17, 20][usize::try_from(seed / 2 % 5).unwrap()];
-    let mut points = Vec::new();
-    while points.len() < count {
-        let p = DVec3::new(numbers.signed(), numbers.signed(), numbers.signed());
-        if p.length() > 0.1 && p.length() < 1.0 {
-            points.push(p.normalize());
-        }
-    }
+    let points = sphere_points(seed, count);
     let hull = Polyhedron::convex_hull(&points).unwrap();
     // all points on one side of the origin: no polar dual
     let around = hull.facets().iter().all(|f| f.normal.dot(f.centroid) > 0.1);
