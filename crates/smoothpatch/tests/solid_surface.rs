@@ -25,7 +25,8 @@ fn weights_come_back_bit_for_bit() {
         let text = String::from_utf8(bytes).unwrap();
         for (from, to, message) in [
             ("\"version\": 1", "\"version\": 2", "version 2, not"),
-            ("\"corners\": [", "\"corners\": [900,", "invalid length 4"),
+            ("\"degree\": ", "\"degree\": 1", "number of weights"),
+            ("\"rounds\": ", "\"round\": ", "missing field `rounds`"),
         ] {
             let damaged = text.replacen(from, to, 1);
             let error = read_weights(&mut damaged.as_bytes()).unwrap_err().to_string();
