@@ -138,7 +138,7 @@ fn random_solid(seed: u64) -> Result<Polyhedron> {
     let count = [8, 11, 14, 17, 20][usize::try_from(seed / 2 % 5)?];
     let hull = Polyhedron::convex_hull(&sphere_points(seed, count))?;
     let around = hull.facets().iter().all(|f| f.normal.dot(f.centroid) > 0.1);
-    match (seed % 2 == 0, around) {
+    match (seed.is_multiple_of(2), around) {
         (true, _) => Ok(hull),
         (false, true) => Ok(hull.dual()?),
         // the dual of points on one side has no volume

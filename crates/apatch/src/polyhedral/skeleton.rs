@@ -180,7 +180,7 @@ impl Builder<'_> {
             .iter()
             .copied()
             .fold(f64::INFINITY, |least, t| if t.abs() < least.abs() { t } else { least });
-        if heights.iter().any(|t| !(t * least > 0.0)) {
+        if heights.iter().any(|t| t * least <= 0.0) {
             return 0.0;
         }
         match self.shape.corners.get(&vertex).copied().or(self.trial.alpha) {

@@ -160,7 +160,7 @@ pub(crate) fn convex_solid(seed: u64) -> Polyhedron {
     let hull = Polyhedron::convex_hull(&points).unwrap();
     // all points on one side of the origin: no polar dual
     let around = hull.facets().iter().all(|f| f.normal.dot(f.centroid) > 0.1);
-    match (seed % 2 == 0, around) {
+    match (seed.is_multiple_of(2), around) {
         (true, _) => hull,
         (false, true) => hull.dual().unwrap(),
         (false, false) => convex_solid(seed + 1000),
