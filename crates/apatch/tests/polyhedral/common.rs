@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 
 use apatch::Tessellation;
 use apatch::glam::{DMat3, DVec3};
-use apatch::polyhedral::{Planarity, PolyhedralSurface, Polyhedron, Scheme, Settings};
+use apatch::polyhedral::{Hull, Planarity, PolyhedralSurface, Polyhedron, Scheme, Settings};
 use apatch::rational::Side;
 use serde_json::Value;
+use testkit::Numbers;
 use testkit::solids::sphere_points;
 
 pub(crate) fn read(name: &str) -> Value {
@@ -165,4 +166,23 @@ pub(crate) fn convex_solid(seed: u64) -> Polyhedron {
         (false, true) => hull.dual().unwrap(),
         (false, false) => convex_solid(seed + 1000),
     }
+}
+
+/// Number of pairs of tetrahedra with a common inner point, among some points of each.
+pub(crate) fn overlapping_pairs(hull: &Hull) -> usize {
+    let mut numbers = Numbers::new(5);
+    let mut pairs = BTreeSet::new();
+    for (i, &cell) in hull.cells.iter().enumerate() {
+        let tetrahedron = hull.tetrahedron(cell);
+        for _ in 0..10 {
+            let p = tetrahedron.point(numbers.weights::<4>());
+            for (j, &other) in hull.cells.iter().enumerate() {
+                let at = hull.tetrahedron(other).barycentric(p);
+                if j != i && at.into_iter().all(|x| x > 1e-6) {
+                    pairs.insert([i.min(j), i.max(j)]);
+                }
+            }
+        }
+    }
+    pairs.len()
 }

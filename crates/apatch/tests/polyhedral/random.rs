@@ -4,7 +4,7 @@ use apatch::glam::DVec3;
 use apatch::polyhedral::{PolyhedralSurface, Polyhedron, Scheme, Settings};
 use proptest::prelude::*;
 
-use super::common::{closed_characteristic, convex_solid, jumps, settings};
+use super::common::{closed_characteristic, convex_solid, jumps, overlapping_pairs, settings};
 
 #[test]
 fn forty_random_solids() {
@@ -18,7 +18,8 @@ fn forty_random_solids() {
         let fine = jumps.gradient <= 1e-12
             && jumps.angle <= 1e-11
             && report.bad_rays[0] == 0
-            && closed_characteristic(&mesh) == Some(2);
+            && closed_characteristic(&mesh) == Some(2)
+            && overlapping_pairs(surface.hull()) == 0;
         flipped += usize::from(mesh.flipped_facets() > 0);
         assert!(fine || !report.is_clean(), "solid {seed} is wrong in silence: {jumps:?}");
         if !report.is_clean() {
