@@ -1,6 +1,7 @@
 //! The second table of `cargo xtask verify`: patch schemes over given meshes.
 
 mod nagata;
+mod polyhedral;
 mod rational;
 
 use std::io::IsTerminal;
@@ -72,8 +73,8 @@ impl Row {
 }
 
 /// All cases, in the order of the table.
-pub(crate) fn cases() -> Vec<Case> {
-    [nagata::cases(), rational::cases()].into_iter().flatten().collect()
+pub(crate) fn cases(effort: Effort) -> Vec<Case> {
+    [nagata::cases(), rational::cases(), polyhedral::cases(effort)].into_iter().flatten().collect()
 }
 
 pub(crate) fn measure(case: &Case, effort: Effort) -> Row {

@@ -83,17 +83,17 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
     }
     let golden_file = crate::root().join("fixtures/expected/verify.json");
     let mut golden = Golden::read(&golden_file)?;
-    let Selection { cases, schemes } = select(options)?;
+    let effort = match options.full {
+        Some(part) if part.has(study::Part::Schemes) => Effort::Full,
+        _ => Effort::Usual,
+    };
+    let Selection { cases, schemes } = select(options, effort)?;
 
     let mut rows: Vec<Row> = cases.iter().map(|case| row(case, &golden, options.bless)).collect();
     compare_methods(&mut rows);
     if !rows.is_empty() {
         print!("{}{}", present::table(&rows).text(), present::failures(&rows));
     }
-    let effort = match options.full {
-        Some(part) if part.has(study::Part::Schemes) => Effort::Full,
-        _ => Effort::Usual,
-    };
     let scheme_rows: Vec<_> = schemes.iter().map(|case| schemes::measure(case, effort)).collect();
     if !scheme_rows.is_empty() {
         print!("\n{}{}", schemes::table(&scheme_rows).text(), schemes::failures(&scheme_rows));
@@ -123,9 +123,9 @@ struct Selection {
     schemes: Vec<schemes::Case>,
 }
 
-fn select(options: &Options) -> Result<Selection> {
+fn select(options: &Options, effort: Effort) -> Result<Selection> {
     let mut cases = cases::all(options.method)?;
-    let mut schemes = schemes::cases();
+    let mut schemes = schemes::cases(effort);
     for name in &options.scene {
         let scenes = cases.iter().map(|case| &*case.scene.name);
         let mut known: Vec<&str> =

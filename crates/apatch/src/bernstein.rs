@@ -157,11 +157,12 @@ mod tests {
     fn a_power_of_a_linear_function() {
         // (1 x + 2 y - z + 3 w)^n has the weights 1^i 2^j (-1)^k 3^l
         let (c, x) = ([1.0_f64, 2.0, -1.0, 3.0], [0.1_f64, 0.4, -0.3, 0.8]);
+        let int = |n: usize| i32::try_from(n).expect("a small number");
         let at = |x: [f64; 4]| (0..4).map(|i| c[i] * x[i]).sum::<f64>();
         for degree in 2..=MAX_DEGREE {
-            let power = |i: [usize; 4]| (0..4).map(|a| c[a].powi(i[a] as i32)).product::<f64>();
+            let power = |i: [usize; 4]| (0..4).map(|a| c[a].powi(int(i[a]))).product::<f64>();
             let weights: Vec<f64> = indices(degree).map(power).collect();
-            let (n, f) = (degree as i32, at(x));
+            let (n, f) = (int(degree), at(x));
             let jet = jet(degree, &weights, x);
             let near = |a: f64, b: f64| (a - b).abs() < 1e-12 * 3_f64.powi(n);
             assert!(near(jet.value, f.powi(n)), "degree {degree}: value {}", jet.value);
@@ -175,7 +176,7 @@ mod tests {
             let u = [0.0, 0.5, 0.5, 0.0];
             let line = along(degree, &weights, x, u);
             for (l, b) in line.iter().enumerate().take(degree + 1) {
-                let expected = f.powi(n - l as i32) * at(u).powi(l as i32);
+                let expected = f.powi(n - int(l)) * at(u).powi(int(l));
                 assert!(near(*b, expected), "degree {degree}, coefficient {l}");
             }
         }

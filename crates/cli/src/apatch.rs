@@ -3,6 +3,7 @@
 mod options;
 mod outputs;
 mod report_file;
+mod solid;
 mod summary;
 mod task;
 mod tension;
@@ -11,6 +12,7 @@ mod warnings;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use anyhow::bail;
 use clap::Args;
 use smoothpatch::apatch_surface::report;
 
@@ -24,18 +26,24 @@ use crate::values;
 use options::RationalOptions;
 use outputs::Outputs;
 use report_file::ReportFile;
+use solid::SolidOptions;
 use task::Task;
 
-/// Make a smooth surface through the vertices of a triangle mesh: A-patches
+/// Make a smooth surface through the vertices of a triangle mesh, or inside a solid: A-patches
 ///
 /// The surface is where a function, smooth over a hull of tetrahedra around the mesh, is zero. It
 /// passes through the vertices with the given normals, one for each vertex. Where the tetrahedra of
 /// neighbours overlap, they are repaired; what cannot be repaired is named. The mesh may be open.
+///
+/// With `--scheme c1-cubic` or `c2-quintic` a solid with planar faces of any size is rounded off.
 #[derive(Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub(crate) struct ApatchArguments {
     #[command(flatten)]
     options: RationalOptions,
+
+    #[command(flatten)]
+    solid: SolidOptions,
 
     /// Compare the patches with the surface of a scene file [default: that of --normals]
     #[arg(long, value_name = "SCENE.ron")]
@@ -66,6 +74,8 @@ Examples:
   smoothpatch apatch fixtures/meshes/spot_triangulated.obj -o spot.vtu --report spot.json
   smoothpatch apatch fixtures/meshes/torus_20x10.obj --normals fixtures/scenes/torus.ron -o t.obj
   smoothpatch apatch part.obj --normals file --tension 0.5 -o part.vtu
+  smoothpatch apatch fixtures/solids/frame.off --scheme c2-quintic -o frame.vtu
+  smoothpatch apatch icosahedron --scheme c1-cubic --cut 0.7 -o round.obj --weights round.json
   smoothpatch apatch part.obj --tension faces.json --repair keep-mesh -o part.vtu -o part.obj
 
 A file for --tension, for all faces and for single ones by number from 0:
@@ -76,6 +86,21 @@ pub(crate) fn run(arguments: &ApatchArguments) -> anyhow::Result<Outcome> {
     files.check_places()?;
     arguments.threads.apply()?;
     let reference = arguments.reference.as_deref();
+    if let Some(scheme) = arguments.options.solid_scheme(reference.is_some())? {
+        files.check_distinct(arguments.options.files_read())?;
+        let order = solid::Order {
+            solid: &arguments.options.mesh,
+            scheme,
+            options: &arguments.solid,
+            tension: arguments.options.tension(),
+            density: arguments.density,
+            quiet: arguments.quiet,
+        };
+        return solid::run(&order, &files);
+    }
+    if arguments.solid.is_used() {
+        bail!("--cut and --weights are for solids; add --scheme c1-cubic or c2-quintic");
+    }
     files.check_distinct(arguments.options.files_read().into_iter().chain(reference).collect())?;
 
     let start = Instant::now();

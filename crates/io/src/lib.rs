@@ -9,6 +9,7 @@ mod lattice;
 mod msh;
 mod node_order;
 mod obj;
+mod off;
 mod patch_surface;
 mod patterns;
 mod polygon;
@@ -32,9 +33,11 @@ pub use lattice::SharedPointError;
 pub use msh::{MAX_MSH_ORDER, MshError, MshOptions, MshVersion, write_msh};
 pub use node_order::{node_order, quad_node_order};
 pub use obj::{
-    LargeFaces, ObjReadError, ObjWriteError, Polygons, read_obj, read_obj_file, read_polygons,
-    read_polygons_file, write_obj, write_obj_creased, write_obj_tessellation,
+    LargeFaces, ObjReadError, ObjWriteError, Polygons, read_faces, read_faces_file, read_obj,
+    read_obj_file, read_polygons, read_polygons_file, write_obj, write_obj_creased,
+    write_obj_tessellation,
 };
+pub use off::{Faces, OffReadError, read_off, read_off_file};
 pub use patch_surface::{PatchNet, PatchSurface, PatchSurfaceError};
 pub use polygon::Polygon;
 pub use samples::{CreasedTessellation, FacePoint, Samples};

@@ -17,6 +17,8 @@ mod report;
 #[cfg(feature = "io")]
 pub mod scene;
 mod settings;
+#[cfg(feature = "io")]
+pub mod solid_surface;
 mod source;
 mod surface;
 

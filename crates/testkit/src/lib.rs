@@ -5,5 +5,6 @@ pub mod fields;
 pub mod meshes;
 mod numbers;
 pub mod polygons;
+pub mod solids;
 
 pub use numbers::Numbers;

@@ -1,6 +1,6 @@
 //! Rational A-patches: quadrics, the paper's configurations, orders, flat parts, and rough meshes.
 
-mod promises;
+pub(super) mod promises;
 
 use anyhow::Result;
 use smoothpatch::apatch::PatchKind;

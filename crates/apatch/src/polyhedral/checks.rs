@@ -117,7 +117,7 @@ pub(crate) fn check(hull: &Hull, characteristic: i64, size: f64) -> (Vec<Finding
     for &cell in &hull.cells {
         let tangent = tangent(hull, cell) / size;
         margins.tangent = margins.tangent.min(tangent);
-        if !(tangent >= -TOUCH) {
+        if tangent.is_nan() || tangent < -TOUCH {
             let at = origin(triangle_of(hull, cell));
             findings.push(Finding::OutsideTangent { at, depth: -tangent });
         }
@@ -125,7 +125,7 @@ pub(crate) fn check(hull: &Hull, characteristic: i64, size: f64) -> (Vec<Finding
             let apex = hull.points[hull.corners(cell)[3]];
             let height = side.sign() * hull.height(t, apex) / size;
             margins.apex = margins.apex.min(height);
-            if !(height > TOUCH) {
+            if height.is_nan() || height <= TOUCH {
                 findings.push(Finding::LowApex { at: origin(t), height });
             }
         }

@@ -59,7 +59,7 @@ pub(crate) fn conditions(hull: &Hull, dofs: &Dofs) -> Vec<Row> {
 }
 
 /// Pairs of cells with a common triangle.
-fn neighbours(hull: &Hull) -> Vec<[usize; 2]> {
+pub(crate) fn neighbours(hull: &Hull) -> Vec<[usize; 2]> {
     let mut open: HashMap<[usize; 3], usize> = HashMap::new();
     let mut pairs = Vec::new();
     for (index, &cell) in hull.cells.iter().enumerate() {
@@ -122,9 +122,8 @@ fn join(hull: &Hull, dofs: &Dofs, first: usize, second: usize, rows: &mut Vec<Ro
         match *off {
             [x] => terms.extend((0..4).map(|a| blossom(&[a], x[a]))),
             [x, y] => {
-                for a in 0..4 {
-                    terms.extend((0..4).map(|b| blossom(&[a, b], x[a] * y[b])));
-                }
+                let pairs = (0..16).map(|k| [k / 4, k % 4]);
+                terms.extend(pairs.map(|[a, b]| blossom(&[a, b], x[a] * y[b])));
             }
             _ => {}
         }

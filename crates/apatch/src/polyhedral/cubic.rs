@@ -58,6 +58,15 @@ pub(crate) fn cubic(hull: &Hull, shape: &ShapeControl) -> Vec<f64> {
     hull.cells.iter().flat_map(|&cell| weights.of_cell(cell)).collect()
 }
 
+impl Hull {
+    /// The weights of the C1 cubic for all cells, 20 each: see
+    /// [`PolyhedralSurface::weights`](super::PolyhedralSurface::weights).
+    #[must_use]
+    pub fn cubic_weights(&self, shape: &ShapeControl) -> Vec<f64> {
+        cubic(self, shape)
+    }
+}
+
 /// Mean of the tensions at the faces that a triangle touches.
 fn tension(hull: &Hull, shape: &ShapeControl, t: usize) -> f64 {
     let corners = hull.triangles[t].corners;
@@ -153,12 +162,12 @@ impl Weights<'_> {
         };
         let [p, q, r] = corners.map(|c| self.point(c));
         let x = Tetrahedron::new([p, q, r, self.point(u)]).barycentric(self.point(l));
-        for k in 0..3 {
+        for (k, &edge) in edges.iter().enumerate() {
             let [a, b, o] = [k, (k + 1) % 3, (k + 2) % 3];
             let flat = x[o] * self.middle[t]
                 + x[a] * self.one(corners[a], corners[b])
                 + x[b] * self.one(corners[b], corners[a]);
-            match self.hull.edges[edges[k]].convexity {
+            match self.hull.edges[edge].convexity {
                 Convexity::Positive => lower.three[k] = flat + x[3] * upper.three[k],
                 Convexity::Negative => upper.three[k] = (lower.three[k] - flat) / x[3],
                 Convexity::Nonconvex | Convexity::Zero => {}
@@ -176,8 +185,8 @@ impl Weights<'_> {
         };
         let sign = side.sign();
         let natural = sign * self.natural(corners, q);
-        for k in 0..3 {
-            let wanted = sign * self.one(corners[k], q) + natural / 3.0;
+        for (k, &corner) in corners.iter().enumerate() {
+            let wanted = sign * self.one(corner, q) + natural / 3.0;
             let bound = [k, (k + 2) % 3].into_iter().filter_map(|edge| {
                 let other = if edge == k { (k + 1) % 3 } else { edge };
                 self.four_bound(t, side, &upper, [k, other, edge])

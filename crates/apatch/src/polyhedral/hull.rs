@@ -4,7 +4,7 @@ use basemesh::{EdgeId, EdgeMap, FaceId, TriMesh, VertexMap};
 use glam::DVec3;
 
 use super::error::HullError;
-use super::skeleton::{PointOrigin, Skeleton, TriangleOrigin};
+use super::skeleton::{PointOrigin, Skeleton, SkeletonTriangle, TriangleOrigin};
 use crate::rational::{Convexity, Side};
 use crate::tetrahedron::Tetrahedron;
 
@@ -91,12 +91,21 @@ pub struct Hull {
 const STRAIGHT: f64 = 1e-9;
 
 impl Hull {
-    /// Over a triangulation.
+    /// Over a triangulation, as of a file. Whether the tetrahedra fit together is not checked here:
+    /// the report of a surface tells.
     ///
     /// # Errors
     ///
-    /// [`HullError::Triangulation`].
-    pub(crate) fn new(skeleton: Skeleton) -> Result<Self, HullError> {
+    /// [`HullError::Triangulation`]; [`HullError::Setting`] without one normal and origin a point.
+    pub fn new(skeleton: Skeleton) -> Result<Self, HullError> {
+        let count = skeleton.points.len();
+        for (name, n) in [("normals", skeleton.normals.len()), ("origins", skeleton.origins.len())]
+        {
+            if n != count {
+                let (value, expected) = (n as f64, "one for each point");
+                return Err(HullError::Setting { name, value, expected });
+            }
+        }
         let faces: Vec<_> = skeleton.triangles.iter().map(|t| t.corners).collect();
         let mesh =
             TriMesh::new(skeleton.points.clone(), &faces).map_err(HullError::Triangulation)?;
@@ -193,6 +202,22 @@ impl Hull {
     pub(crate) fn height(&self, triangle: usize, p: DVec3) -> f64 {
         let [a, b, c] = self.triangles[triangle].corners.map(|i| self.points[i]);
         (b - a).cross(c - a).normalize_or_zero().dot(p - a)
+    }
+
+    /// The triangulation, from which [`Hull::new`] makes the same hull again.
+    #[must_use]
+    pub fn skeleton(&self) -> Skeleton {
+        let triangle = |t: &HullTriangle| SkeletonTriangle {
+            corners: t.corners,
+            apices: t.apices.map(|apex| apex.map(|p| self.points[p])),
+            origin: t.origin,
+        };
+        Skeleton {
+            points: self.points[..self.base_count()].to_vec(),
+            normals: self.normals.clone(),
+            origins: self.origins.clone(),
+            triangles: self.triangles.iter().map(triangle).collect(),
+        }
     }
 
     /// Number of points of the triangulation.

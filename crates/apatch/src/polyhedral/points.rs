@@ -97,7 +97,7 @@ impl PolyhedralSurface {
                 Meets::Wrongly
             };
         }
-        if !(clean[self.degree] > 0.0) {
+        if clean[self.degree] <= 0.0 {
             return Meets::Wrongly;
         }
         let falls =

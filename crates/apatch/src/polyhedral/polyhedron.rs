@@ -193,8 +193,8 @@ impl Polyhedron {
         for (index, side) in self.sides.iter().enumerate() {
             let other = self.sides[side.twin].face;
             let sine = self.inward(index).dot(self.facets[other].normal);
-            // also true for edges without length
-            if !(sine.abs() > planarity.flat_edge) {
+            // zero for edges without length
+            if sine.abs() <= planarity.flat_edge {
                 let (faces, vertices) = ([side.face, other], [side.origin, side.target]);
                 return Err(PolyhedronError::FlatEdge { faces, vertices });
             }
@@ -270,11 +270,10 @@ fn sides(facets: &[Facet]) -> Result<Vec<Side>, PolyhedronError> {
             return Err(PolyhedronError::Orientation { faces, vertices });
         }
     }
-    for index in 0..sides.len() {
-        let Side { origin, target, face, .. } = sides[index];
+    for side in &mut sides {
+        let Side { origin, target, face, .. } = *side;
         let twin = by_ends.get(&[target, origin]);
-        sides[index].twin =
-            *twin.ok_or(PolyhedronError::OpenEdge { face, vertices: [origin, target] })?;
+        side.twin = *twin.ok_or(PolyhedronError::OpenEdge { face, vertices: [origin, target] })?;
     }
     Ok(sides)
 }

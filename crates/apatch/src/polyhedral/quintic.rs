@@ -201,18 +201,17 @@ impl Problem {
 
 /// Scales rows and columns of a symmetric matrix to a unit diagonal.
 fn unit_diagonal(matrix: &mut CscMatrix<f64>) -> Vec<f64> {
-    let mut scale = vec![1.0; matrix.n];
-    for column in 0..matrix.n {
+    let entries = |column: usize| matrix.colptr[column]..matrix.colptr[column + 1];
+    let diagonal = |column: usize| {
+        let found = entries(column).find(|&k| matrix.rowval[k] == column);
+        found.map_or(0.0, |k| matrix.nzval[k])
+    };
+    // powers of two keep all digits
+    let unit = |d: f64| if d > 0.0 { (-0.5 * d.log2()).round().exp2() } else { 1.0 };
+    let scale: Vec<f64> = (0..matrix.n).map(|column| unit(diagonal(column))).collect();
+    for (column, of_column) in scale.iter().enumerate() {
         for k in matrix.colptr[column]..matrix.colptr[column + 1] {
-            if matrix.rowval[k] == column && matrix.nzval[k] > 0.0 {
-                // powers of two keep all digits
-                scale[column] = (-0.5 * matrix.nzval[k].log2()).round().exp2();
-            }
-        }
-    }
-    for column in 0..matrix.n {
-        for k in matrix.colptr[column]..matrix.colptr[column + 1] {
-            matrix.nzval[k] *= scale[column] * scale[matrix.rowval[k]];
+            matrix.nzval[k] *= of_column * scale[matrix.rowval[k]];
         }
     }
     scale

@@ -41,21 +41,30 @@ pub(crate) struct Trial {
     pub(crate) clearance: f64,
 }
 
-/// A triangle with the apex offered for each side, positive first.
+/// A triangle of the triangulation, with places for its apices.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Facet {
-    pub(crate) corners: [usize; 3],
-    pub(crate) apices: [Option<DVec3>; 2],
-    pub(crate) origin: TriangleOrigin,
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SkeletonTriangle {
+    /// Its corners, counter-clockwise seen from outside.
+    pub corners: [usize; 3],
+    /// The apex offered on the positive and negative side, used where an edge needs it.
+    pub apices: [Option<DVec3>; 2],
+    /// What it rounds off.
+    pub origin: TriangleOrigin,
 }
 
-/// All points and triangles.
+/// The triangulation that a hull is built over: everything else follows from it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Skeleton {
-    pub(crate) points: Vec<DVec3>,
-    pub(crate) normals: Vec<DVec3>,
-    pub(crate) origins: Vec<PointOrigin>,
-    pub(crate) triangles: Vec<Facet>,
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Skeleton {
+    /// Guards and corner points.
+    pub points: Vec<DVec3>,
+    /// Their unit normals.
+    pub normals: Vec<DVec3>,
+    /// Where they come from.
+    pub origins: Vec<PointOrigin>,
+    /// The triangles.
+    pub triangles: Vec<SkeletonTriangle>,
 }
 
 struct Builder<'a> {
@@ -100,7 +109,7 @@ pub(crate) fn skeleton(
     (0..solid.sides.len()).for_each(|side| builder.net(side));
     for &corners in &guards.fills {
         let origin = TriangleOrigin::Face(guards.faces[corners[0]]);
-        builder.made.triangles.push(Facet { corners, apices: [None; 2], origin });
+        builder.made.triangles.push(SkeletonTriangle { corners, apices: [None; 2], origin });
     }
     Ok(builder.made)
 }
@@ -135,7 +144,7 @@ impl Builder<'_> {
             if convex == 2 { [Some(at), Some(beyond)] } else { [Some(beyond), Some(at)] }
         };
         let origin = TriangleOrigin::Corner(vertex);
-        self.made.triangles.push(Facet { corners, apices, origin });
+        self.made.triangles.push(SkeletonTriangle { corners, apices, origin });
         true
     }
 
@@ -157,7 +166,7 @@ impl Builder<'_> {
             self.reach[side] = self.trial.tau;
             let apices = [1.0, -1.0].map(|sign| Some(self.fan_apex(corners, normal, foot, sign)));
             let origin = TriangleOrigin::Fan([vertex, self.solid.sides[side].target]);
-            self.made.triangles.push(Facet { corners, apices, origin });
+            self.made.triangles.push(SkeletonTriangle { corners, apices, origin });
         }
         Ok(())
     }
@@ -171,7 +180,7 @@ impl Builder<'_> {
             .iter()
             .copied()
             .fold(f64::INFINITY, |least, t| if t.abs() < least.abs() { t } else { least });
-        if heights.iter().any(|t| !(t * least > 0.0)) {
+        if heights.iter().any(|t| t * least <= 0.0) {
             return 0.0;
         }
         match self.shape.corners.get(&vertex).copied().or(self.trial.alpha) {
@@ -218,7 +227,7 @@ impl Builder<'_> {
             let apex = Some(self.along(side, x));
             let apices = if self.solid.is_ridge(side) { [apex, None] } else { [None, apex] };
             let origin = TriangleOrigin::Edge([data.origin, data.target]);
-            self.made.triangles.push(Facet { corners, apices, origin });
+            self.made.triangles.push(SkeletonTriangle { corners, apices, origin });
         }
     }
 }

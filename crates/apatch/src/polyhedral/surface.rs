@@ -42,6 +42,28 @@ pub struct CellJet {
     pub hessian: glam::DMat3,
 }
 
+/// Curvatures of the surface through a point, positive where it is round as seen from outside.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Curvatures {
+    /// The mean of the principal curvatures. Unit: one over length.
+    pub mean: f64,
+    /// Their product. Unit: one over area.
+    pub gauss: f64,
+}
+
+impl CellJet {
+    /// Curvatures of the level set through the point; zero where the gradient vanishes.
+    #[must_use]
+    pub fn curvatures(&self) -> Curvatures {
+        let slope = self.gradient.length();
+        let Some(normal) = self.gradient.try_normalize() else { return Curvatures::default() };
+        let (u, v) = normal.any_orthonormal_pair();
+        let form = |a: DVec3, b: DVec3| a.dot(self.hessian * b) / slope;
+        let (e, f, g) = (form(u, u), form(u, v), form(v, v));
+        Curvatures { mean: 0.5 * (e + g), gauss: e * g - f * f }
+    }
+}
+
 /// Values tried where the tetrahedra do not fit; `None` is the balanced rule.
 const ALPHAS: [Option<f64>; 5] = [None, Some(0.3), Some(0.5), Some(0.7), Some(0.85)];
 const TAUS: [f64; 2] = [0.45, 0.3];

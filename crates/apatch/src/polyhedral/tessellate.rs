@@ -1,6 +1,7 @@
 //! A watertight triangle mesh of the surface.
 
 use basemesh::{EdgeId, FaceId};
+use glam::DVec3;
 
 use super::hull::{Cell, HullTriangle};
 use super::surface::PolyhedralSurface;
@@ -16,6 +17,22 @@ struct Points {
     cells: std::collections::HashMap<Cell, usize>,
 }
 
+/// A triangle mesh with the place of each point in the hull.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sampled {
+    /// The mesh.
+    pub mesh: Tessellation,
+    /// Cell and barycentric coordinates of each point; `None` on planar pieces.
+    pub places: Vec<Option<(usize, [f64; 4])>>,
+}
+
+impl Sampled {
+    fn push(&mut self, point: DVec3, normal: DVec3, place: Option<(usize, [f64; 4])>) -> usize {
+        self.places.push(place);
+        self.mesh.push_point(point, normal)
+    }
+}
+
 impl PolyhedralSurface {
     /// A triangle mesh with `n` steps along each side of a triangle, and `across` steps over each half
     /// of an edge; both at least 1.
@@ -25,10 +42,17 @@ impl PolyhedralSurface {
     /// wrong way are avoided by flipping edges, which may join points of two patches.
     #[must_use]
     pub fn tessellate(&self, n: usize, across: usize) -> Tessellation {
+        self.sample(n, across).mesh
+    }
+
+    /// The same with the places of its points in the hull, for other quantities there.
+    #[must_use]
+    pub fn sample(&self, n: usize, across: usize) -> Sampled {
         let (n, across) = (n.max(1), across.max(1));
-        let mut out = Tessellation::default();
+        let mut out = Sampled::default();
+        let corner_places = self.corner_places();
         for (p, normal) in self.hull.normals.iter().enumerate() {
-            out.push_point(self.hull.points[p], *normal);
+            out.push(self.hull.points[p], *normal, corner_places[p]);
         }
         let cells = self.hull.cells.iter().enumerate().map(|(i, &c)| (c, i)).collect();
         let mut points = Points { edges: Vec::new(), cells };
@@ -44,17 +68,32 @@ impl PolyhedralSurface {
         for t in 0..self.hull.triangles.len() {
             self.push_lattice(t, n, &points, &mut out);
         }
-        out.unfold();
+        out.mesh.unfold();
         out
     }
 
-    fn push(&self, cell: usize, foot: [f64; 4], top: [f64; 4], out: &mut Tessellation) -> usize {
+    /// For each point of the triangulation the first cell that has it as a corner.
+    fn corner_places(&self) -> Vec<Option<(usize, [f64; 4])>> {
+        let mut places = vec![None; self.hull.base_count()];
+        for (index, &cell) in self.hull.cells.iter().enumerate() {
+            for (c, p) in self.hull.corners(cell).into_iter().enumerate() {
+                if let Some(place @ None) = places.get_mut(p) {
+                    let mut at = [0.0; 4];
+                    at[c] = 1.0;
+                    *place = Some((index, at));
+                }
+            }
+        }
+        places
+    }
+
+    fn push(&self, cell: usize, foot: [f64; 4], top: [f64; 4], out: &mut Sampled) -> usize {
         match self.point(cell, foot, top) {
-            Some(p) => out.push_point(p.point, p.normal()),
+            Some(p) => out.push(p.point, p.normal(), Some((cell, p.at))),
             None => {
-                out.missing += 1;
+                out.mesh.missing += 1;
                 let tetrahedron = self.hull.tetrahedron(self.hull.cells[cell]);
-                out.push_point(tetrahedron.point(foot), glam::DVec3::ZERO)
+                out.push(tetrahedron.point(foot), DVec3::ZERO, None)
             }
         }
     }
@@ -64,7 +103,7 @@ impl PolyhedralSurface {
         e: usize,
         n: usize,
         points: &Points,
-        out: &mut Tessellation,
+        out: &mut Sampled,
     ) -> [Vec<usize>; 3] {
         let edge = &self.hull.edges[e];
         let [a, b] = edge.ends;
@@ -85,20 +124,27 @@ impl PolyhedralSurface {
             // the edge is on the surface
             let [p, q] = [a, b].map(|i| self.hull.points[i]);
             let normal = (self.hull.normals[a] + self.hull.normals[b]).normalize_or_zero();
-            let along = row(&mut |x| out.push_point(p * (1.0 - x) + q * x, normal));
+            let place = self.place_on_straight_edge(e, points);
+            let along = row(&mut |x| {
+                let place = place.map(|(cell, ends)| (cell, blend(ends, x)));
+                out.push(p * (1.0 - x) + q * x, normal, place)
+            });
             [along.clone(), along.clone(), along]
         }
     }
 
+    /// A cell next to a straight edge, and the coordinates of the ends of the edge in it.
+    fn place_on_straight_edge(&self, e: usize, points: &Points) -> Option<(usize, [[f64; 4]; 2])> {
+        let edge = &self.hull.edges[e];
+        let cells = edge.triangles.into_iter().flat_map(|t| Side::BOTH.map(|s| Cell::Face(t, s)));
+        let cell = cells.filter_map(|c| points.cells.get(&c).copied()).next()?;
+        let corners = self.hull.corners(self.hull.cells[cell]);
+        let at = |p: usize| corners.map(|c| f64::from(u8::from(c == p)));
+        Some((cell, edge.ends.map(at)))
+    }
+
     /// The two strips over an edge, from its first triangle to its second.
-    fn push_strips(
-        &self,
-        e: usize,
-        side: Side,
-        across: usize,
-        points: &Points,
-        out: &mut Tessellation,
-    ) {
+    fn push_strips(&self, e: usize, side: Side, across: usize, points: &Points, out: &mut Sampled) {
         let rows = &points.edges[e];
         let n = rows[0].len() - 1;
         for which in 0..2 {
@@ -122,7 +168,7 @@ impl PolyhedralSurface {
             for pair in columns.windows(2) {
                 for i in 0..n {
                     let quad = [pair[0][i], pair[1][i], pair[1][i + 1], pair[0][i + 1]];
-                    out.push_quad(quad, element, PatchKind::ConvexEdge);
+                    out.mesh.push_quad(quad, element, PatchKind::ConvexEdge);
                 }
             }
         }
@@ -140,7 +186,7 @@ impl PolyhedralSurface {
         row
     }
 
-    fn push_lattice(&self, t: usize, n: usize, points: &Points, out: &mut Tessellation) {
+    fn push_lattice(&self, t: usize, n: usize, points: &Points, out: &mut Sampled) {
         let rows = [0, 1, 2].map(|k| self.row_at(t, k, points));
         let sides = Side::BOTH.map(|side| points.cells.get(&Cell::Face(t, side)).copied());
         let mut ids = vec![0; (n + 1) * (n + 1)];
@@ -166,7 +212,7 @@ impl PolyhedralSurface {
         };
         for triangle in lattice_triangles(n) {
             let corners = triangle.map(|[i, j]| ids[i * (n + 1) + j]);
-            out.push_triangle(corners, Element::Face(FaceId::new(t)), kind);
+            out.mesh.push_triangle(corners, Element::Face(FaceId::new(t)), kind);
         }
     }
 
@@ -176,7 +222,7 @@ impl PolyhedralSurface {
         t: usize,
         sides: [Option<usize>; 2],
         [x, y, z]: [f64; 3],
-        out: &mut Tessellation,
+        out: &mut Sampled,
     ) -> usize {
         let (foot, apex) = ([x, y, z, 0.0], [0.0, 0.0, 0.0, 1.0]);
         match sides {
@@ -188,8 +234,12 @@ impl PolyhedralSurface {
             [None, None] => {
                 let [a, b, c] = self.hull.triangles[t].corners;
                 let at = |p: usize| self.hull.points[p];
-                out.push_point(at(a) * x + at(b) * y + at(c) * z, self.hull.normals[a])
+                out.push(at(a) * x + at(b) * y + at(c) * z, self.hull.normals[a], None)
             }
         }
     }
+}
+
+fn blend([a, b]: [[f64; 4]; 2], x: f64) -> [f64; 4] {
+    std::array::from_fn(|c| a[c] * (1.0 - x) + b[c] * x)
 }

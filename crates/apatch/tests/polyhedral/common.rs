@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use apatch::Tessellation;
 use apatch::glam::{DMat3, DVec3};
-use apatch::polyhedral::{Planarity, PolyhedralSurface, Polyhedron, Scheme, Settings};
+use apatch::polyhedral::{Hull, Planarity, PolyhedralSurface, Polyhedron, Scheme, Settings};
 use apatch::rational::Side;
 use serde_json::Value;
-
-use crate::numbers::Numbers;
+use testkit::Numbers;
+use testkit::solids::sphere_points;
 
 pub(crate) fn read(name: &str) -> Value {
     let folder = "/../../fixtures/oracle/polyhedra-a-patch/";
@@ -156,21 +156,33 @@ pub(crate) fn closed_characteristic(mesh: &Tessellation) -> Option<isize> {
 
 /// A random convex solid: even seeds have triangles for faces, odd ones corners of three edges.
 pub(crate) fn convex_solid(seed: u64) -> Polyhedron {
-    let mut numbers = Numbers::new(seed + 1);
     let count = [8, 11, 14, 17, 20][usize::try_from(seed / 2 % 5).unwrap()];
-    let mut points = Vec::new();
-    while points.len() < count {
-        let p = DVec3::new(numbers.signed(), numbers.signed(), numbers.signed());
-        if p.length() > 0.1 && p.length() < 1.0 {
-            points.push(p.normalize());
-        }
-    }
+    let points = sphere_points(seed, count);
     let hull = Polyhedron::convex_hull(&points).unwrap();
     // all points on one side of the origin: no polar dual
     let around = hull.facets().iter().all(|f| f.normal.dot(f.centroid) > 0.1);
-    match (seed % 2 == 0, around) {
+    match (seed.is_multiple_of(2), around) {
         (true, _) => hull,
         (false, true) => hull.dual().unwrap(),
         (false, false) => convex_solid(seed + 1000),
     }
+}
+
+/// Number of pairs of tetrahedra with a common inner point, among some points of each.
+pub(crate) fn overlapping_pairs(hull: &Hull) -> usize {
+    let mut numbers = Numbers::new(5);
+    let mut pairs = BTreeSet::new();
+    for (i, &cell) in hull.cells.iter().enumerate() {
+        let tetrahedron = hull.tetrahedron(cell);
+        for _ in 0..10 {
+            let p = tetrahedron.point(numbers.weights::<4>());
+            for (j, &other) in hull.cells.iter().enumerate() {
+                let at = hull.tetrahedron(other).barycentric(p);
+                if j != i && at.into_iter().all(|x| x > 1e-6) {
+                    pairs.insert([i.min(j), i.max(j)]);
+                }
+            }
+        }
+    }
+    pairs.len()
 }

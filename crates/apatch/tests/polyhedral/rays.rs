@@ -5,7 +5,7 @@ use apatch::glam::DVec3;
 use apatch::polyhedral::{PolyhedralSurface, Polyhedron, Scheme};
 
 use super::common::settings;
-use crate::numbers::Numbers;
+use testkit::Numbers;
 
 #[test]
 fn rays_hit_the_inscribed_sphere() {

@@ -1,5 +1,6 @@
 //! The fifteen solids in both schemes.
 
+use apatch::glam::DVec3;
 use apatch::polyhedral::{PolyhedralSurface, Polyhedron, Scheme, Settings};
 
 use super::common::{closed_characteristic, jumps, settings, solids};
@@ -68,7 +69,7 @@ fn platonic_solids_become_their_inscribed_spheres() {
         for scheme in [Scheme::C1Cubic, Scheme::C2Quintic] {
             let surface = PolyhedralSurface::new(&solid, &settings(scheme)).unwrap();
             let mesh = surface.tessellate(6, 4);
-            let off = |p: &apatch::glam::DVec3| (p.length() / radius - 1.0).abs();
+            let off = |p: &DVec3| (p.length() / radius - 1.0).abs();
             let worst = mesh.positions.iter().map(off).fold(0.0, f64::max);
             assert!(worst <= 1e-10, "{name} {scheme:?}: {worst}");
         }

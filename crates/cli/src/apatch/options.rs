@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use smoothpatch::apatch::polyhedral::Scheme;
 use smoothpatch::apatch::rational::{FreeWeightRule, RepairSettings, Settings};
 
 use super::tension::Tension;
@@ -12,7 +13,8 @@ use crate::nagata::options::NormalsName;
 #[derive(Args)]
 #[group(skip)]
 pub(crate) struct RationalOptions {
-    /// Triangles, with or without normals (OBJ)
+    /// Triangles, with or without normals (OBJ); for the schemes of solids an OFF or OBJ file with
+    /// planar faces, or a name such as `cube`, `icosahedron`, `frame`
     #[arg(value_name = "MESH.obj")]
     pub(crate) mesh: PathBuf,
 
@@ -57,9 +59,32 @@ impl RationalOptions {
         self.tension.file()
     }
 
+    pub(crate) fn tension(&self) -> &Tension {
+        &self.tension
+    }
+
+    /// The scheme, if it is one for solids; their normals are those of their faces.
+    pub(crate) fn solid_scheme(&self, compared: bool) -> anyhow::Result<Option<Scheme>> {
+        let scheme = match self.scheme {
+            SchemeName::Rational => return Ok(None),
+            SchemeName::C1Cubic => Scheme::C1Cubic,
+            SchemeName::C2Quintic => Scheme::C2Quintic,
+        };
+        let given = [
+            ("--normals", self.normals.is_some()),
+            ("--reference", compared),
+            ("--triangulate", self.triangulate),
+            ("--rule", self.rule != RuleName::Clamped),
+            ("--repair", self.repair != RepairName::All),
+        ];
+        match given.into_iter().find(|(_, given)| *given) {
+            Some((name, _)) => anyhow::bail!("{name} is not for solids; use --scheme rational"),
+            None => Ok(Some(scheme)),
+        }
+    }
+
     /// Settings of the construction.
     pub(crate) fn settings(&self) -> anyhow::Result<Settings> {
-        let SchemeName::Rational = self.scheme;
         Ok(Settings {
             rule: self.rule.into(),
             shape: self.tension.read()?,
@@ -73,6 +98,10 @@ impl RationalOptions {
 enum SchemeName {
     /// C1, rational over convex faces, with given or estimated normals (Xu, Huang and Bajaj 2001)
     Rational,
+    /// Solids: C1, degree 3 (Bajaj, Chen and Xu 1994)
+    C1Cubic,
+    /// Solids: C2, degree 5, the fairest
+    C2Quintic,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

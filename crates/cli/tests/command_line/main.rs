@@ -10,4 +10,5 @@ mod nagata;
 mod nagata_bad_input;
 mod query;
 mod shapes;
+mod solids;
 mod workplace;

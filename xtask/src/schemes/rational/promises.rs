@@ -45,7 +45,7 @@ pub(super) fn promises(surface: &RationalSurface, steps: usize) -> Measured {
 }
 
 /// Vertices minus edges plus triangles, and the number of edges with one triangle.
-fn topology_of(mesh: &Tessellation) -> (i64, usize) {
+pub(in crate::schemes) fn topology_of(mesh: &Tessellation) -> (i64, usize) {
     let mut edges: HashMap<[usize; 2], usize> = HashMap::new();
     for t in &mesh.triangles {
         for k in 0..3 {

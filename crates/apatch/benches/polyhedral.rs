@@ -1,0 +1,70 @@
+//! Smooth solids: cost a face of the hull, of both schemes and of meshes.
+
+use std::hint::black_box;
+
+use apatch::glam::DVec3;
+use apatch::polyhedral::{PolyhedralSurface, Polyhedron, Scheme, Settings};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+
+/// A convex solid whose faces have five or six corners, about `faces` of them: the dual of points
+/// spread over a sphere.
+fn solid(faces: usize) -> Polyhedron {
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    let point = |i: usize| {
+        let z = 1.0 - (2.0 * i as f64 + 1.0) / faces as f64;
+        let (sin, cos) = (golden * i as f64).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        DVec3::new(r * cos, r * sin, z)
+    };
+    let points: Vec<DVec3> = (0..faces).map(point).collect();
+    Polyhedron::convex_hull(&points).and_then(|hull| hull.dual()).expect("a convex solid")
+}
+
+fn settings(scheme: Scheme) -> Settings {
+    Settings { scheme, ..Settings::default() }
+}
+
+fn elements(faces: usize) -> Throughput {
+    Throughput::Elements(faces as u64)
+}
+
+fn c1(c: &mut Criterion) {
+    let mut group = c.benchmark_group("c1_cubic");
+    for faces in [20, 100] {
+        let solid = solid(faces);
+        group.throughput(elements(faces));
+        group.bench_with_input(BenchmarkId::new("whole", faces), &solid, |b, solid| {
+            b.iter(|| PolyhedralSurface::new(black_box(solid), &settings(Scheme::C1Cubic)));
+        });
+        let surface =
+            PolyhedralSurface::new(&solid, &settings(Scheme::C1Cubic)).expect("a surface");
+        group.bench_with_input(BenchmarkId::new("weights", faces), &surface, |b, surface| {
+            b.iter(|| black_box(surface).hull().cubic_weights(&Settings::default().shape));
+        });
+        group.bench_with_input(BenchmarkId::new("mesh 6x6", faces), &surface, |b, surface| {
+            b.iter(|| black_box(surface).tessellate(6, 6));
+        });
+    }
+    group.finish();
+}
+
+fn c2(c: &mut Criterion) {
+    let mut group = c.benchmark_group("c2_quintic");
+    group.sample_size(10);
+    for faces in [20, 100] {
+        let solid = solid(faces);
+        group.throughput(elements(faces));
+        group.bench_with_input(BenchmarkId::new("whole", faces), &solid, |b, solid| {
+            b.iter(|| PolyhedralSurface::new(black_box(solid), &settings(Scheme::C2Quintic)));
+        });
+    }
+    let icosahedron = Polyhedron::named("icosahedron").expect("a solid");
+    group.throughput(elements(20));
+    group.bench_function("icosahedron", |b| {
+        b.iter(|| PolyhedralSurface::new(black_box(&icosahedron), &settings(Scheme::C2Quintic)));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, c1, c2);
+criterion_main!(benches);
