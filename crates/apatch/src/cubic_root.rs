@@ -33,6 +33,14 @@ impl RayCubic {
         Self(self.0.map(|b| -b))
     }
 
+    /// The cubic plus `b t²`.
+    #[inline]
+    #[must_use]
+    pub fn raised(self, b: f64) -> Self {
+        let [b0, b1, b2, b3] = self.0;
+        Self([b0, b1, b2 + b / 3.0, b3 + b])
+    }
+
     /// The first root in `[0, 1]` of a cubic that starts below zero; `None` if it stays negative or
     /// does not start there. A zero start is the root 0.
     ///
@@ -45,8 +53,12 @@ impl RayCubic {
         if c0 >= 0.0 || c0.is_nan() {
             return (c0 == 0.0).then_some(0.0);
         }
-        // where the derivative c1 + 2 c2 t + 3 c3 t² vanishes
         let (mut low, mut high) = (0.0, 1.0);
+        if self.is_single_by_signs() {
+            let guess = if c1 > 0.0 { -c0 / c1 } else { 0.5 };
+            return Some(self.newton(low, high, guess));
+        }
+        // where the derivative c1 + 2 c2 t + 3 c3 t² vanishes
         let discriminant = c2 * c2 - 3.0 * c1 * c3;
         if discriminant > 0.0 {
             let q = -(c2 + discriminant.sqrt().copysign(c2));
@@ -85,12 +97,20 @@ impl RayCubic {
             let slope = c1 + t * (2.0 * c2 + t * (3.0 * c3));
             let step = value / slope;
             let newton = t - step;
-            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-            // a step below round-off changes nothing any more
-            let moved = (next - t).abs();
-            t = next;
-            if moved <= 2.0 * f64::EPSILON * t {
-                break;
+            if newton >= low && newton <= high {
+                // what the next step would do: half of f'' / f' times the square of this one
+                let bend = (c2 + 3.0 * c3 * t).abs();
+                t = newton;
+                if step * step * bend <= f64::EPSILON * t * slope.abs() {
+                    break;
+                }
+            } else {
+                let middle = 0.5 * (low + high);
+                let moved = (middle - t).abs();
+                t = middle;
+                if moved <= 2.0 * f64::EPSILON * t {
+                    break;
+                }
             }
         }
         t
