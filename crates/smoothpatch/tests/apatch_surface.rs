@@ -9,7 +9,7 @@ use smoothpatch::FieldSource;
 use smoothpatch::apatch::PatchKind;
 use smoothpatch::apatch::rational::{Normals, RationalSurface, Settings, ShapeControl, Side};
 use smoothpatch::apatch_surface::{
-    NormalSource, RationalError, grid, joints, rational_surface, report, triangles,
+    NormalSource, RationalError, flat_gap, grid, joints, rational_surface, report, triangles,
 };
 use smoothpatch::basemesh::{FaceId, TriMesh};
 use smoothpatch::implicit::{ImplicitSurface, ProjectionSettings, Torus};
@@ -124,4 +124,13 @@ fn normals_of_files_are_those_of_vertices() {
     file.normals[4] = -file.normals[4];
     let refused = rational_surface(&file, NormalSource::File, &settings).unwrap_err();
     assert!(matches!(refused, RationalError::SeveralNormals { .. }), "{refused}");
+}
+
+/// Chords of circles: the distance falls by four when steps are halved.
+#[test]
+fn flat_triangles_come_closer_with_their_square() {
+    let surface = over_torus(&Settings::default());
+    let [coarse, fine] = [4, 8].map(|n| flat_gap(&surface, n, n / 2));
+    assert!(coarse < 0.01 && fine > 0.0, "{coarse} {fine}");
+    assert!((3.0..5.0).contains(&(coarse / fine)), "{coarse} {fine}");
 }
