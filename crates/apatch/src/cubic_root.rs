@@ -45,8 +45,12 @@ impl RayCubic {
         if c0 >= 0.0 || c0.is_nan() {
             return (c0 == 0.0).then_some(0.0);
         }
-        // where the derivative c1 + 2 c2 t + 3 c3 t² vanishes
         let (mut low, mut high) = (0.0, 1.0);
+        if self.is_single_by_signs() {
+            let guess = if c1 > 0.0 { -c0 / c1 } else { 0.5 };
+            return Some(self.newton(low, high, guess));
+        }
+        // where the derivative c1 + 2 c2 t + 3 c3 t² vanishes
         let discriminant = c2 * c2 - 3.0 * c1 * c3;
         if discriminant > 0.0 {
             let q = -(c2 + discriminant.sqrt().copysign(c2));
@@ -85,12 +89,20 @@ impl RayCubic {
             let slope = c1 + t * (2.0 * c2 + t * (3.0 * c3));
             let step = value / slope;
             let newton = t - step;
-            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-            // a step below round-off changes nothing any more
-            let moved = (next - t).abs();
-            t = next;
-            if moved <= 2.0 * f64::EPSILON * t {
-                break;
+            if newton >= low && newton <= high {
+                // what the next step would do: half of f'' / f' times the square of this one
+                let bend = (c2 + 3.0 * c3 * t).abs();
+                t = newton;
+                if step * step * bend <= f64::EPSILON * t * slope.abs() {
+                    break;
+                }
+            } else {
+                let middle = 0.5 * (low + high);
+                let moved = (middle - t).abs();
+                t = middle;
+                if moved <= 2.0 * f64::EPSILON * t {
+                    break;
+                }
             }
         }
         t
@@ -105,12 +117,30 @@ impl RayCubic {
     #[inline]
     #[must_use]
     pub fn threshold(&self) -> f64 {
+        self.threshold_and_place().0
+    }
+
+    /// The [`threshold`](Self::threshold), and the `t` of the minimum.
+    #[inline]
+    pub(crate) fn threshold_and_place(&self) -> (f64, f64) {
         let [c0, c1, c2, c3] = self.powers();
         if c0 >= 0.0 || c0.is_nan() {
-            return f64::NEG_INFINITY;
+            return (f64::NEG_INFINITY, 1.0);
         }
         let r = largest_root_above_one([2.0 * c0, c1, -c3]);
-        -(r * (c0 * r + c1) + c2 + c3 / r)
+        (-(r * (c0 * r + c1) + c2 + c3 / r), 1.0 / r)
+    }
+
+    /// Whether the threshold of a cubic that starts below zero is at most `b` for certain, by a look at
+    /// one `t` in `(0, 1]`: there `G` is at most `b`, and it falls all the way there.
+    #[inline]
+    pub(crate) fn is_threshold_at_most(&self, b: f64, t: f64) -> bool {
+        let [c0, c1, c2, c3] = self.powers();
+        // G' has the sign of 2 c0 + c1 t - c3 t³: negative at 0, so too before t if convex or rising
+        // there, and otherwise below a line
+        let bent = c3 * t * t;
+        let rise = if bent > 0.0 && c1 < 3.0 * bent { c1.max(0.0) } else { c1 - bent };
+        2.0 * c0 + t * rise < 0.0 && c0 + t * (c1 + t * (c2 + b + t * c3)) >= 0.0
     }
 
     /// Whether the first root is simple for certain: one change of sign of the coefficients.
@@ -203,6 +233,22 @@ mod tests {
         }
 
         #[test]
+        fn one_look_never_says_too_much(
+            b0 in -2.0..-0.01_f64, b1 in -1.0..3.0_f64, b2 in -4.0..4.0_f64, b3 in -4.0..4.0_f64,
+            other in -4.0..4.0_f64, near in 0.3..1.5_f64,
+        ) {
+            let cubic = RayCubic([b0, b1, b2, b3]);
+            let (threshold, place) = cubic.threshold_and_place();
+            for t in [(near * place).min(1.0), place] {
+                for b in [other, threshold + other.abs()] {
+                    if cubic.is_threshold_at_most(b, t) {
+                        prop_assert!(threshold <= b + 1e-12 * (1.0 + b.abs()), "{threshold} {b}");
+                    }
+                }
+            }
+        }
+
+        #[test]
         fn one_sign_change_needs_no_threshold(
             b0 in -2.0..-0.01_f64, b1 in -1.0..3.0_f64, b2 in -4.0..4.0_f64, b3 in -4.0..4.0_f64,
         ) {
@@ -219,6 +265,16 @@ mod tests {
         assert_eq!(RayCubic([0.5, 1.0, 1.0, -1.0]).first_root(), None);
         assert_eq!(RayCubic([-1.0, -0.5, -0.2, -0.1]).first_root(), None);
         assert_eq!(RayCubic([1.0, 0.0, 0.0, 0.0]).threshold(), f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn one_look_at_the_right_place_decides() {
+        let cubic = RayCubic([-1.0, 0.5, 0.2, 0.0]);
+        let (threshold, place) = cubic.threshold_and_place();
+        assert!(place < 1.0, "the minimum is inside: {place}");
+        assert!(cubic.is_threshold_at_most(threshold + 1e-6, 0.9999 * place), "just above");
+        assert!(!cubic.is_threshold_at_most(threshold - 1e-6, 0.9999 * place), "just below");
+        assert!(!cubic.is_threshold_at_most(threshold + 1e3, 1.0), "beyond the minimum");
     }
 
     #[test]

@@ -49,7 +49,8 @@ pub(crate) struct ApatchArguments {
     #[arg(long, value_name = "SCENE.ron")]
     reference: Option<PathBuf>,
 
-    /// Where to write: .vtu or .obj, flat triangles with normals; can be repeated
+    /// Where to write: .vtu, .obj, .ply, .stl or .glb, always flat triangles, with normals except in
+    /// .stl; can be repeated
     #[arg(short, long = "output", value_name = "FILE", required = true)]
     outputs: Vec<PathBuf>,
 
@@ -83,6 +84,7 @@ A file for --tension, for all faces and for single ones by number from 0:
 
 pub(crate) fn run(arguments: &ApatchArguments) -> anyhow::Result<Outcome> {
     let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?;
+    outputs::check_formats(&files)?;
     files.check_places()?;
     arguments.threads.apply()?;
     let reference = arguments.reference.as_deref();

@@ -13,7 +13,7 @@ mod report;
 mod samples;
 
 #[cfg(feature = "io")]
-pub use files::{grid, triangles};
+pub use files::{flat_gap, grid, triangles};
 #[cfg(feature = "io")]
 pub use from_polygons::{NormalSource, RationalError, rational_surface};
 pub use joints::{Joints, joints};

@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail like tests")]
 
 use smoothpatch::apatch::rational::{Normals, RationalSurface, Side};
+use smoothpatch::basemesh::glam::DVec3;
 use smoothpatch::basemesh::{EdgeMap, VertexId, VertexMap};
 use smoothpatch::implicit::NamedShape;
 use smoothpatch::{G1Surface, Method, Settings, Silent, fit};
@@ -38,7 +39,7 @@ fn apatch_checksum() -> u64 {
     let faces = surface.mesh().topology().faces();
     let free = faces.flat_map(|face| Side::BOTH.map(|side| surface.free_weight(face, side)));
     let points = surface.tessellate(2, 2);
-    let coordinates = points.positions.iter().chain(&points.normals).flat_map(|p| p.to_array());
+    let coordinates = points.positions.iter().chain(&points.normals).flat_map(DVec3::to_array);
     hash(free.flatten().chain(coordinates))
 }
 

@@ -137,7 +137,8 @@ pub(crate) fn edge_patch(hull: &Hull, faces: &FaceMap<FacePatch>, edge: EdgeId) 
             return None;
         };
         let mut s = EdgeSide::new(places, patches, [left, right]);
-        let wedge = super::validity::wedge_of(hull, edge, side, [left.apex, right.apex])?;
+        // a promoted face has another apex only on a side where its edges need no tetrahedron
+        let wedge = hull.wedges[edge][side.index()]?;
         (s.opening, s.angle) = (wedge.opening, wedge.angle);
         Some(s)
     });

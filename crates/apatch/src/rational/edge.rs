@@ -210,6 +210,28 @@ impl EdgeSide {
         ])
     }
 
+    /// Whether every transversal of the point `x p_i + (1 - x) p_j` crosses the surface once for
+    /// certain, by the signs of Bernstein coefficients in `y`; `sign` is that of the side.
+    #[inline]
+    pub(crate) fn is_single_along(&self, weights: [f64; 2], x: f64, sign: f64) -> bool {
+        let (i, j) = (x, 1.0 - x);
+        let shares = [&self.right, &self.left];
+        let base = i * weights[0] + j * weights[1];
+        if sign * base >= 0.0
+            || shares.iter().any(|s| sign * s.free <= 0.0 || sign * s.inner <= 0.0)
+        {
+            return sign * base >= 0.0;
+        }
+        let one = |s: &FaceShare| i * (i * s.l1v[0] + 2.0 * j * s.l1e) + j * j * s.l1v[1];
+        let two = |s: &FaceShare| i * s.l2v[0] + j * s.l2v[1];
+        let middle = |s: &FaceShare| i * s.middle[0] + j * s.middle[1];
+        shares.iter().all(|s| sign * one(s) <= 0.0)
+            || shares.iter().all(|s| {
+                let end = sign * two(s);
+                end >= 0.0 && end + 2.0 * sign * middle(s) >= 0.0
+            })
+    }
+
     /// What raising the two free weights by `b` adds to the cubic of a transversal, as a multiple of
     /// `b t²` \[XHB01 Step 6\].
     #[inline]

@@ -117,7 +117,7 @@ impl FaceSide {
     }
 
     #[inline]
-    fn layer1_jet(&self, x: [f64; 3]) -> (f64, [f64; 3]) {
+    pub(crate) fn layer1_jet(&self, x: [f64; 3]) -> (f64, [f64; 3]) {
         let (v, e) = (&self.l1v, &self.l1e);
         // half the derivatives; a quadratic form is the sum of coordinates times those
         let half = [

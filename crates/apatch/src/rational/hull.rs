@@ -9,7 +9,7 @@ use super::edge::places;
 use super::error::SurfaceError;
 use super::kinds::{self, Convexity, EdgeData, Side};
 use super::settings::Settings;
-use super::validity::{into_face, invalid, opening};
+use super::validity::{Wedges, into_face, invalid, opening, wedges};
 use crate::linear_program::{HalfSpace, deepest_point};
 
 /// Everything that is known before the weights.
@@ -22,6 +22,8 @@ pub(crate) struct Hull {
     pub(crate) blocks: EdgeMap<EdgeBlock>,
     pub(crate) kinds: FaceMap<Convexity>,
     pub(crate) apices: FaceMap<Apices>,
+    /// Angles of the needed edge tetrahedra.
+    pub(crate) wedges: Wedges,
     /// Edge tetrahedra that are inverted or folded, with their angles.
     pub(crate) invalid: Vec<(EdgeId, Side, f64)>,
     /// Faces that a normal at a corner sees from behind.
@@ -53,13 +55,26 @@ impl Hull {
         let blocks = blocks(&mesh, &normals, &edges);
         let kinds = kinds::faces(&mesh, &edges);
         let apices = apices(&mesh, &frames, &normals, &blocks, &kinds, &settings.apices);
-        let invalid = invalid(&mesh, &frames, &edges, &apices);
+        let wedges = wedges(&mesh, &frames, &edges, &apices);
+        let invalid = invalid(&wedges);
         let sees = |&face: &FaceId| {
             let corners = corner_normals(&mesh, &normals, face);
             corners.iter().any(|n| n.dot(frames[face].normal) <= 0.0)
         };
         let behind = mesh.topology().faces().filter(sees).collect();
-        Ok(Self { mesh, normals, frames, edges, blocks, kinds, apices, invalid, behind, moved: 0 })
+        Ok(Self {
+            mesh,
+            normals,
+            frames,
+            edges,
+            blocks,
+            kinds,
+            apices,
+            wedges,
+            invalid,
+            behind,
+            moved: 0,
+        })
     }
 
     /// Number of things wrong.
@@ -92,7 +107,8 @@ impl Hull {
                     self.moved += 1;
                 }
             }
-            self.invalid = invalid(&self.mesh, &self.frames, &self.edges, &self.apices);
+            self.wedges = wedges(&self.mesh, &self.frames, &self.edges, &self.apices);
+            self.invalid = invalid(&self.wedges);
         }
     }
 

@@ -7,6 +7,7 @@ use super::edge::{EdgePatch, EdgeSide};
 use super::face::{FacePatch, FaceSide, dot};
 use super::kinds::{Convexity, Side};
 use super::surface::RationalSurface;
+use crate::cubic_root::RayCubic;
 use crate::tetrahedron::gradient;
 
 /// A point of the surface.
@@ -38,17 +39,20 @@ impl FacePatch {
     #[must_use]
     pub fn point(&self, x: [f64; 3]) -> Option<SurfacePoint> {
         let foot = self.corners[0] * x[0] + self.corners[1] * x[1] + self.corners[2] * x[2];
-        let base = self.base.value(x);
-        let Some((side, s)) = self.side_at(base) else {
+        let (v0, s0) = self.base.jet(x);
+        let Some((side, s)) = self.side_at(v0) else {
             return Some(self.on_mesh(foot, x));
         };
-        let sign = side.sign();
-        let cubic = s.ray(base, x);
-        let t = (if sign < 0.0 { cubic.negated() } else { cubic }).first_root()?;
-        let rest = 1.0 - t;
-        let at = [rest * x[0], rest * x[1], rest * x[2], t];
-        let point = foot * rest + s.apex * t;
-        Some(SurfacePoint { point, gradient: self.gradient(s, at), t, side: Some(side) })
+        let ((v1, s1), v2) = (s.layer1_jet(x), dot(x, s.l2v));
+        let cubic = RayCubic([v0, v1, v2, s.free]);
+        let t = (if side == Side::Negative { cubic.negated() } else { cubic }).first_root()?;
+        // the layers are homogeneous: at (1 - t) x they are known from x
+        let r = 1.0 - t;
+        let slope = |a: usize| r * r * s0[a] + 3.0 * t * (r * s1[a] + t * s.l2v[a]);
+        let up = 3.0 * (r * r * v1 + t * (2.0 * r * v2 + t * s.free));
+        let slopes = [slope(0), slope(1), slope(2), up];
+        let gradient = gradient(slopes, &s.tetrahedron(&self.corners).gradients());
+        Some(SurfacePoint { point: foot * r + s.apex * t, gradient, t, side: Some(side) })
     }
 
     #[inline]
@@ -74,7 +78,7 @@ impl FacePatch {
     /// The function along the transversal, as that of a point of the triangle, for the side where it
     /// goes; the sign is reversed on the negative side.
     #[must_use]
-    pub fn transversal(&self, x: [f64; 3]) -> Option<crate::RayCubic> {
+    pub fn transversal(&self, x: [f64; 3]) -> Option<RayCubic> {
         let base = self.base.value(x);
         let (side, s) = self.side_at(base)?;
         Some(if side == Side::Negative { s.ray(base, x).negated() } else { s.ray(base, x) })
@@ -115,7 +119,7 @@ impl EdgePatch {
 
     /// The function along a transversal; the sign is reversed on the negative side.
     #[must_use]
-    pub fn transversal(&self, [x, y]: [f64; 2]) -> Option<crate::RayCubic> {
+    pub fn transversal(&self, [x, y]: [f64; 2]) -> Option<RayCubic> {
         let (side, s) = self.side_at(self.base(x))?;
         let cubic = s.ray(self.weights, [x, y]);
         Some(if side == Side::Negative { cubic.negated() } else { cubic })
@@ -143,7 +147,7 @@ impl RationalSurface {
     pub fn count_bad_transversals(&self, n: usize) -> (usize, usize) {
         let step = 1.0 / n as f64;
         let (mut bad, mut all) = (0, 0);
-        let mut check = |missing: bool, cubic: Option<crate::RayCubic>| {
+        let mut check = |missing: bool, cubic: Option<RayCubic>| {
             all += 1;
             bad += usize::from(missing || cubic.is_some_and(|c| c.threshold() > 0.0));
         };

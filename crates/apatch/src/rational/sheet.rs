@@ -9,6 +9,8 @@ use crate::cubic_root::RayCubic;
 
 /// Halvings of the step when the worst transversal is refined between grid points.
 const HALVINGS: usize = 8;
+/// Where on a transversal is looked, in units of where the largest threshold so far was found.
+const LOOKS: [f64; 3] = [1.0, 0.8, 0.6];
 
 /// The smallest value that the free weight times the sign must exceed, over all transversals of the
 /// face that go to this side; minus infinity if there are none.
@@ -20,19 +22,31 @@ pub(crate) fn face_bound(
 ) -> f64 {
     let n = settings.grid;
     let sign = side.sign();
-    let bound = |x: [f64; 3]| {
+    // where the largest threshold so far was found on its transversal
+    let mut place = 1.0;
+    // the threshold of a transversal, or minus infinity if it is certainly not above one that is known
+    let mut bound = |x: [f64; 3], known: f64| {
         let start = sign * base.value(x);
         if start >= 0.0 {
             return f64::NEG_INFINITY;
         }
         let two = 2.0 / 3.0 * dot(x, face.fitted);
-        RayCubic([start, sign * face.layer1(x), sign * two, 0.0]).threshold()
+        let cubic = RayCubic([start, sign * face.layer1(x), sign * two, 0.0]);
+        if LOOKS.iter().any(|look| cubic.is_threshold_at_most(known, look * place)) {
+            return f64::NEG_INFINITY;
+        }
+        let (threshold, t) = cubic.threshold_and_place();
+        if threshold > known {
+            place = t;
+        }
+        threshold
     };
-    let (step, mut best, mut at) = (1.0 / n as f64, f64::NEG_INFINITY, [0.0; 3]);
+    let middle = [1.0 / 3.0; 3];
+    let (step, mut best, mut at) = (1.0 / n as f64, bound(middle, f64::NEG_INFINITY), middle);
     for i in 0..=n {
         for j in 0..=n - i {
             let x = [i as f64 * step, j as f64 * step, (n - i - j) as f64 * step];
-            let here = bound(x);
+            let here = bound(x, best);
             if here > best {
                 (best, at) = (here, x);
             }
@@ -45,7 +59,12 @@ pub(crate) fn face_bound(
 }
 
 /// The largest value that a compass search from a grid point finds.
-fn refined(value: impl Fn([f64; 3]) -> f64, mut at: [f64; 3], mut best: f64, mut step: f64) -> f64 {
+fn refined(
+    mut value: impl FnMut([f64; 3], f64) -> f64,
+    mut at: [f64; 3],
+    mut best: f64,
+    mut step: f64,
+) -> f64 {
     const WAYS: [[usize; 2]; 6] = [[0, 1], [1, 0], [0, 2], [2, 0], [1, 2], [2, 1]];
     for _ in 0..HALVINGS {
         for [from, to] in WAYS {
@@ -53,7 +72,7 @@ fn refined(value: impl Fn([f64; 3]) -> f64, mut at: [f64; 3], mut best: f64, mut
             let moved = step.min(x[from]);
             x[from] -= moved;
             x[to] += moved;
-            let here = value(x);
+            let here = value(x, best);
             if here > best {
                 (best, at) = (here, x);
             }
@@ -112,6 +131,9 @@ pub(crate) fn edge_raise(
     let (mut best, mut at) = (f64::NEG_INFINITY, [0.0; 2]);
     let columns = (1..n).map(|i| i as f64 * step).chain([0.5 * step, 1.0 - 0.5 * step]);
     for x in columns {
+        if edge.is_single_along(weights, x, sign) {
+            continue;
+        }
         for j in 0..=n {
             let here = ask([x, j as f64 * step]);
             if here > best {

@@ -5,7 +5,6 @@ use glam::DVec3;
 
 use super::apex::{Apices, FaceFrame};
 use super::edge::{Place, places};
-use super::hull::Hull;
 use super::kinds::{EdgeData, Side};
 
 /// Angles at an edge on one side, in the plane perpendicular to it, in radians.
@@ -76,18 +75,16 @@ fn wedge(
     Some(Wedge { opening, angle })
 }
 
-/// The wedge of an edge of a hull.
-pub(crate) fn wedge_of(hull: &Hull, edge: EdgeId, side: Side, apices: [DVec3; 2]) -> Option<Wedge> {
-    wedge(&hull.mesh, &hull.frames, edge, side, apices)
-}
+/// The wedges of the needed edge tetrahedra, by [`Side::index`].
+pub(crate) type Wedges = EdgeMap<[Option<Wedge>; 2]>;
 
-/// All needed edge tetrahedra that are inverted or folded, in the order of the edges.
-pub(crate) fn invalid(
+/// The wedges of all needed edge tetrahedra.
+pub(crate) fn wedges(
     mesh: &TriMesh,
     frames: &FaceMap<FaceFrame>,
     edges: &EdgeMap<EdgeData>,
     apices: &FaceMap<Apices>,
-) -> Vec<(EdgeId, Side, f64)> {
+) -> Wedges {
     let needed = |edge: EdgeId, side: Side| {
         let both = places(mesh.topology(), mesh.topology().canonical(edge))?;
         let [Some(left), Some(right)] = both.map(|p| apices[p.face][side.index()]) else {
@@ -95,9 +92,13 @@ pub(crate) fn invalid(
         };
         wedge(mesh, frames, edge, side, [left, right])
     };
-    let wedges = edges.map(|edge, data| {
+    edges.map(|edge, data| {
         Side::BOTH.map(|side| data.convexity.has(side).then(|| needed(edge, side)).flatten())
-    });
+    })
+}
+
+/// The edge tetrahedra that are inverted or folded with their angles, in the order of the edges.
+pub(crate) fn invalid(wedges: &Wedges) -> Vec<(EdgeId, Side, f64)> {
     let sides = wedges.iter().flat_map(|(edge, w)| Side::BOTH.map(|s| (edge, s, w[s.index()])));
     sides
         .filter_map(|(edge, side, w)| w.filter(|w| !w.is_valid()).map(|w| (edge, side, w.angle)))

@@ -1,17 +1,29 @@
 //! The files of a surface.
 
+use anyhow::bail;
 use smoothpatch::apatch::Tessellation;
 use smoothpatch::apatch::rational::RationalSurface;
-use smoothpatch::apatch_surface::{RationalFigures, grid, triangles};
-use smoothpatch::io::{Encoding, write_grid, write_obj_tessellation};
+use smoothpatch::apatch_surface::{RationalFigures, flat_gap, grid, triangles};
+use smoothpatch::io::{Encoding, write_grid};
 
-use crate::output_files::{Format, OutputFiles, Written, write_file};
+use crate::formats;
+use crate::output_files::{Approximation, Format, OutputFiles, Written, write_file};
+
+const NO_POLYNOMIALS: &str = "files of this kind hold polynomial patches, which A-patches are not; use \
+                              .vtu, .obj, .ply, .stl or .glb";
+
+/// Refuses formats that cannot hold the surface, before it is made.
+pub(crate) fn check_formats(files: &OutputFiles) -> anyhow::Result<()> {
+    let exact = |format: &Format| matches!(format, Format::Step | Format::Msh);
+    match files.surfaces.iter().find(|(format, _)| exact(format)) {
+        Some((_, path)) => bail!("-o {}: {NO_POLYNOMIALS}", path.display()),
+        None => Ok(()),
+    }
+}
 
 /// What was written.
 pub(crate) struct Outputs {
     pub(crate) files: Vec<Written>,
-    /// Number of flat triangles.
-    pub(crate) triangles: usize,
     /// Points of the triangles that are on the mesh instead of the surface.
     pub(crate) missing: usize,
 }
@@ -24,20 +36,24 @@ impl Outputs {
         figures: Option<&RationalFigures>,
         density: usize,
     ) -> anyhow::Result<Self> {
-        let mesh: Tessellation = surface.tessellate(density, density.div_ceil(2));
+        let across = density.div_ceil(2);
+        let mesh: Tessellation = surface.tessellate(density, across);
+        let gap = flat_gap(surface, density, across);
+        let (kind, count) = ("flat triangles", mesh.triangles.len());
         let mut written = Vec::new();
         for (format, path) in &files.surfaces {
             written.push(match format {
                 Format::Vtu => {
                     let grid = grid(surface, &mesh, figures);
                     write_file(path, |out| Ok(write_grid(out, &grid, Encoding::default())?))?
+                        .holding(Approximation { kind, count, gap })
                 }
-                Format::Obj => {
-                    let triangles = triangles(&mesh);
-                    write_file(path, |out| Ok(write_obj_tessellation(out, &triangles)?))?
+                Format::Triangles(format) => {
+                    formats::triangles(path, *format, &triangles(&mesh), gap)?
                 }
+                Format::Step | Format::Msh => bail!("{}: {NO_POLYNOMIALS}", path.display()),
             });
         }
-        Ok(Self { files: written, triangles: mesh.triangles.len(), missing: mesh.missing })
+        Ok(Self { files: written, missing: mesh.missing })
     }
 }

@@ -23,7 +23,6 @@ pub(crate) struct ReportFile<'a> {
     settings: &'a Settings,
     #[serde(flatten)]
     report: &'a RationalReport,
-    triangles: usize,
     points_not_on_surface: usize,
     files: &'a [Written],
 }
@@ -38,7 +37,6 @@ impl<'a> ReportFile<'a> {
             reference: task.reference.as_ref().map(|(name, _)| name.as_str()),
             settings: &task.settings,
             report,
-            triangles: outputs.triangles,
             points_not_on_surface: outputs.missing,
             files: &outputs.files,
         }

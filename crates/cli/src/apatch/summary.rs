@@ -7,7 +7,7 @@ use super::outputs::Outputs;
 use super::task::Task;
 use crate::nagata::report_file::normals_text;
 use crate::nagata::task::NormalsUsed;
-use crate::table::{Table, bytes, degrees, grid, length, of_diagonal, yes_no};
+use crate::table::{Table, degrees, grid, length, of_diagonal, yes_no};
 
 /// `seconds`: building, measuring, writing.
 pub(crate) fn summary(
@@ -42,9 +42,8 @@ pub(crate) fn summary(
     }
     table.gap();
     for file in &outputs.files {
-        table.row("wrote", format!("{} ({})", file.file.display(), bytes(file.bytes)));
+        file.rows(&mut table, report.diagonal);
     }
-    table.row("", format!("{} flat triangles", outputs.triangles));
     format!("{}, rational A-patches\n{table}", task.mesh.display())
 }
 

@@ -69,7 +69,9 @@ fn spot_is_closed_and_smooth() {
     assert!(is_closed(&place, "a.obj"), "cracks");
 
     let grid = cells(&place, "a.vtu");
-    assert_eq!(report["triangles"], grid.cells.len());
+    assert_eq!(report["files"][0]["cells"], grid.cells.len());
+    let gap = report["files"][1]["sampling_deviation"].as_f64().unwrap();
+    assert!(gap > 1e-6 && gap < 1e-2, "gap {gap}");
     let kinds = data(&grid, "patch_kind");
     for kind in [0.0, 1.0, 3.0, 4.0] {
         assert!(kinds.contains(&kind), "no patch of kind {kind}");
@@ -230,7 +232,9 @@ fn bad_options() {
         (&["--normals", "estimated", "-o", "a.vtu"], &["`estimate`", ".ron"]),
         (&["--normals", "scene.ron", "-o", "a.vtu"], &["`spere`", "known shapes"]),
         (&["--density", "0", "-o", "a.vtu"], &["1 to 256"]),
-        (&["-o", "a.stl"], &["must end with .vtu"]),
+        (&["-o", "a.off"], &["must end with .vtu"]),
+        (&["-o", "a.vtu", "-o", "a.step"], &["a.step: ", "A-patches are not", ".glb"]),
+        (&["-o", "a.msh"], &["a.msh: ", "A-patches are not", ".glb"]),
         (&["-o", "none/a.vtu"], &["there is no directory none"]),
         (&["-o", "./mesh.obj"], &["./mesh.obj is read"]),
         (&["--tension", "low.json", "-o", "a.vtu", "--report", "low.json"], &["low.json is read"]),
