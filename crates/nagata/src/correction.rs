@@ -105,6 +105,14 @@ impl Correction {
             Self::Turning(turning) => turning.at(u),
         }
     }
+
+    /// Bounds of `|Γ|`, `|Γ'|` and `|Γ''|` along the edge; `None` if the normal along it (nearly) vanishes.
+    pub(crate) fn bounds(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Constant(gamma) => Some([gamma.length(), 0.0, 0.0]),
+            Self::Turning(turning) => turning.bounds(),
+        }
+    }
 }
 
 impl EdgeData {

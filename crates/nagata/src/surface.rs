@@ -160,13 +160,17 @@ impl NagataSurface {
         }
     }
 
+    /// The quadratic patch of a triangle.
+    #[inline]
+    pub(crate) fn quadratic(&self, face: FaceId, corners: [DVec3; 3]) -> NagataTriangle {
+        let curvature = [1, 2, 0].map(|corner| self.curvature_of(face, corner));
+        NagataTriangle { corners, curvature }
+    }
+
     #[inline]
     fn triangle(&self, face: FaceId, corners: [DVec3; 3]) -> Patch {
         match self.settings.continuity {
-            Continuity::Position => Patch::Triangle(NagataTriangle {
-                corners,
-                curvature: [1, 2, 0].map(|corner| self.curvature_of(face, corner)),
-            }),
+            Continuity::Position => Patch::Triangle(self.quadratic(face, corners)),
             Continuity::TangentPlane(planes) => {
                 let edges = [1, 2, 0].map(|corner| self.side_curve(Side { face, corner }));
                 let given = [0, 1, 2].map(|corner| self.normals.at(&self.mesh, face, corner));

@@ -136,6 +136,14 @@ impl G1Triangle {
         self.jet(at).surface_jet()
     }
 
+    /// The largest [`Correction::bounds`] of the edges.
+    pub(crate) fn correction_bounds(&self) -> Option<[f64; 3]> {
+        self.corrections.iter().try_fold([0.0_f64; 3], |[a, b, c], correction| {
+            let [x, y, z] = correction.bounds()?;
+            Some([a.max(x), b.max(y), c.max(z)])
+        })
+    }
+
     /// Point and derivatives by the three parameters.
     fn barycentric_jet(&self, at: Barycentric) -> BarycentricJet {
         let mut jet = self.base.jet(at);

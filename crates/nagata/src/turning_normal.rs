@@ -1,5 +1,7 @@
 //! The correction that works for edges of any shape.
 
+mod bounds;
+
 use glam::DVec3;
 
 use crate::along::Along;
