@@ -61,6 +61,7 @@ pub(crate) struct EdgeData {
 
 impl Correction {
     /// The correction of the edge opposite `corner` of a patch with these corner normals.
+    #[inline(always)]
     pub(crate) fn new(
         base: &BasePatch,
         corner: Corner,
@@ -116,6 +117,7 @@ impl Correction {
 }
 
 impl EdgeData {
+    #[inline]
     fn new(
         base: &BasePatch,
         corner: Corner,
@@ -179,10 +181,12 @@ pub(crate) fn corner_normals(
     given: &[Option<DVec3>; 3],
     settings: &CorrectionSettings,
 ) -> [Option<DVec3>; 3] {
-    let mut normals = Corner::ALL.map(|corner| {
+    let from_tangents = |corner| {
         let ([a, b], chords) = tangents_at(base, corner);
         corner_direction(a.cross(b), chords)
-    });
+    };
+    let [a, b, c] = Corner::ALL;
+    let mut normals = [from_tangents(a), from_tangents(b), from_tangents(c)];
     if normals.iter().all(Option::is_some) {
         return normals;
     }

@@ -40,6 +40,7 @@ impl G1Triangle {
     ///
     /// `given` are the unit normals that the curves were made from, if there are. They are used only
     /// at corners where the tangents of both edges are parallel. Any finite input gives a finite patch.
+    #[inline]
     #[must_use]
     pub fn new(
         corners: [DVec3; 3],
@@ -50,14 +51,11 @@ impl G1Triangle {
     ) -> Self {
         let base = BasePatch { corners, edges };
         let corner_normals = corner_normals(&base, &given, settings);
-        let both = Corner::ALL
-            .map(|corner| Correction::new(&base, corner, &corner_normals, planes, settings));
-        Self {
-            base,
-            corner_normals,
-            corrections: both.map(|(correction, _)| correction),
-            status: both.map(|(_, status)| status),
-        }
+        let new = |corner| Correction::new(&base, corner, &corner_normals, planes, settings);
+        // written out: a map over the corners would copy what is large
+        let [a, b, c] = Corner::ALL;
+        let ((c0, s0), (c1, s1), (c2, s2)) = (new(a), new(b), new(c));
+        Self { base, corner_normals, corrections: [c0, c1, c2], status: [s0, s1, s2] }
     }
 
     /// Corners, counter-clockwise seen from outside.

@@ -7,7 +7,7 @@ use common::queries::{Random, Reference, is_on_patch, spot, torus_surface};
 use nagata::{Hit, NagataSurface, Ray, Settings, SurfaceQueries};
 
 /// Distances differ by less than this from those of the reference, in sizes of the surface.
-const DISTANCE: f64 = 1e-8;
+const DISTANCE: f64 = 1e-10;
 /// The same for hits that are not nearly tangent.
 const HIT: f64 = 1e-7;
 /// Cosine of a ray and the normal below which a hit is nearly tangent.

@@ -160,7 +160,8 @@ impl<'a> Reference<'a> {
             open = open.iter().flat_map(|f| f.parts(&self.surface.patch(f.face))).collect();
             assert!(open.len() < 200_000, "{p}: the reference does not converge");
         }
-        best
+        // the flat triangles are so small now that they are the surface
+        open.iter().map(|flat| flat_distance(p, flat.points)).fold(f64::INFINITY, f64::min)
     }
 
     /// The longest side of the face: radii of curvature are longer.
