@@ -9,8 +9,7 @@ use crate::blend::Blend;
 use crate::correction::{Correction, CorrectionStatus, corner_normals};
 use crate::edge_curve::EdgeCurve;
 use crate::settings::{CorrectionSettings, TangentPlanes};
-use crate::triangle::{area_normal, normal_at_corner};
-use crate::unit::unit;
+use crate::triangle::{area_normal, normal_at_corner, normal_of};
 
 /// The patch over a triangle whose tangent planes along an edge depend on the edge's curve and the
 /// normals at its ends only, and so are those of the neighbour \[Nagata10, section 3\]:
@@ -123,7 +122,7 @@ impl G1Triangle {
     /// singular corner the direction half way between the normals of the other two.
     #[must_use]
     pub fn normal(&self, at: Barycentric) -> Option<DVec3> {
-        normal_at_corner(at, &self.corner_normals).unwrap_or_else(|| unit(self.area_normal(at)))
+        normal_at_corner(at, &self.corner_normals).unwrap_or_else(|| normal_of(self.partials(at)))
     }
 
     /// Normal and curvature; `None` at the corners, where curvature depends on the direction of
