@@ -18,6 +18,18 @@ use crate::along::Along;
 use crate::base_patch::BarycentricJet;
 use crate::triangle::ends_opposite;
 
+/// Bound of the second derivatives of `Σ h_i Γ_i(u_i)` by `(b_0, b_1)` in unit directions, from bounds of
+/// `|Γ|`, `|Γ'|` and `|Γ''|`: the largest sums, over the triangle, of the norms of what each is multiplied
+/// with. The first one is reached at the corners.
+pub(crate) fn largest_second([value, first, second]: [f64; 3]) -> f64 {
+    10.17 * value + 0.70 * first + 0.085 * second
+}
+
+/// Bound of `|Σ h_i Γ_i|` from one of `|Γ|`: the sum of the `h_i` is `b_0 b_1 b_2`.
+pub(crate) fn largest_value(gamma: f64) -> f64 {
+    gamma / 27.0
+}
+
 /// The blending function of one edge at one point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blend {
@@ -119,5 +131,55 @@ impl Blend {
             [0.0, 2.0 * b_k * r_j * r_j * r_j, b_i * r_i * (1.0 + r_j + r_k + 2.0 * r_j * r_k)],
             [0.0, 0.0, 2.0 * b_j * r_k * r_k * r_k],
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Largest norms of the three forms `Γ`, `Γ'` and `Γ''` are multiplied with.
+    fn norms(at: Barycentric) -> [f64; 3] {
+        let of = |corner: Corner, gamma: [f64; 3]| {
+            let zero = BarycentricJet {
+                point: DVec3::ZERO,
+                first: [DVec3::ZERO; 3],
+                second: [[DVec3::ZERO; 3]; 3],
+            };
+            let mut jet = zero;
+            let gamma = Along(gamma.map(|g| DVec3::X * g));
+            Blend::at(at, corner).expect("not a corner").add_second(gamma, &mut jet);
+            let jet = jet.patch_jet();
+            let mean = 0.5 * (jet.duu.x + jet.dvv.x);
+            mean.abs() + (0.5 * (jet.duu.x - jet.dvv.x)).hypot(jet.duv.x)
+        };
+        // the last coefficient of a power series is half the second derivative
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.5]]
+            .map(|gamma| Corner::ALL.into_iter().map(|corner| of(corner, gamma)).sum())
+    }
+
+    #[test]
+    fn second_derivatives_stay_below_the_bound_and_reach_it() {
+        let mut largest = [0.0_f64; 3];
+        let mut look = |at: Barycentric| {
+            for (largest, norm) in largest.iter_mut().zip(norms(at)) {
+                *largest = largest.max(norm);
+            }
+        };
+        Barycentric::lattice(150).filter(|b| b.u.max(b.v).max(b.w) < 1.0).for_each(&mut look);
+        // the directions around the corners
+        for k in 0..=400 {
+            let (t, e) = (f64::from(k) / 400.0, 1e-9);
+            let near = [1.0 - e, e * t, e * (1.0 - t)];
+            for turn in 0..3 {
+                look(Barycentric::from_array([0, 1, 2].map(|i| near[(i + turn) % 3])));
+            }
+        }
+        for (n, largest) in largest.into_iter().enumerate() {
+            let mut only = [0.0; 3];
+            only[n] = 1.0;
+            let bound = largest_second(only);
+            assert!(largest <= bound && largest > 0.98 * bound, "{n}: {largest}, bound {bound}");
+        }
     }
 }

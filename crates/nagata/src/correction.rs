@@ -61,6 +61,7 @@ pub(crate) struct EdgeData {
 
 impl Correction {
     /// The correction of the edge opposite `corner` of a patch with these corner normals.
+    #[inline(always)]
     pub(crate) fn new(
         base: &BasePatch,
         corner: Corner,
@@ -105,9 +106,18 @@ impl Correction {
             Self::Turning(turning) => turning.at(u),
         }
     }
+
+    /// Bounds of `|Γ|`, `|Γ'|` and `|Γ''|` along the edge; `None` if the normal along it (nearly) vanishes.
+    pub(crate) fn bounds(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Constant(gamma) => Some([gamma.length(), 0.0, 0.0]),
+            Self::Turning(turning) => turning.bounds(),
+        }
+    }
 }
 
 impl EdgeData {
+    #[inline]
     fn new(
         base: &BasePatch,
         corner: Corner,
@@ -171,10 +181,12 @@ pub(crate) fn corner_normals(
     given: &[Option<DVec3>; 3],
     settings: &CorrectionSettings,
 ) -> [Option<DVec3>; 3] {
-    let mut normals = Corner::ALL.map(|corner| {
+    let from_tangents = |corner| {
         let ([a, b], chords) = tangents_at(base, corner);
         corner_direction(a.cross(b), chords)
-    });
+    };
+    let [a, b, c] = Corner::ALL;
+    let mut normals = [from_tangents(a), from_tangents(b), from_tangents(c)];
     if normals.iter().all(Option::is_some) {
         return normals;
     }

@@ -32,7 +32,8 @@ pub enum Join {
     Inflection,
     /// A correction was too long to be used.
     Rejected,
-    /// A patch has no normal at an end: the tangents of two of its edges are parallel there.
+    /// A patch has no normal at an end or in the middle: tangents are parallel there, as everywhere on a
+    /// triangle with collinear corners and the same normals.
     Singular,
     /// The patches have different normals at an end, because an edge there does not meet the given
     /// normals.
@@ -83,7 +84,7 @@ impl NagataSurface {
         if a.status.rejected || b.status.rejected {
             return Join::Rejected;
         }
-        if a.status.singular_end || b.status.singular_end {
+        if [&a, &b].iter().any(|side| side.status.singular_end || side.middle.is_none()) {
             return Join::Singular;
         }
         // the sides run in opposite directions; without a normal at an end there is nothing to share
@@ -101,6 +102,7 @@ impl NagataSurface {
         Some(AtSide {
             status: patch.correction_status(edge),
             normals: [edge.start(), edge.end()].map(|corner| patch.corner_normal(corner)),
+            middle: patch.normal(Barycentric::on_edge(edge, 0.5)),
         })
     }
 
@@ -136,6 +138,8 @@ struct AtSide {
     status: CorrectionStatus,
     /// At the start and at the end of the side.
     normals: [Option<DVec3>; 2],
+    /// In the middle.
+    middle: Option<DVec3>,
 }
 
 impl Patch {

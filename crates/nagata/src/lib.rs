@@ -10,6 +10,7 @@ mod curvature_parameter;
 mod edge_curve;
 mod edge_table;
 mod error;
+mod fold;
 mod groups;
 mod ids;
 mod join;

@@ -7,7 +7,7 @@ use crate::curvature_parameter::one_each;
 use crate::sample::{Row, fill_rows};
 use crate::settings::EdgeSettings;
 use crate::triangle::corner_direction;
-use crate::unit::unit;
+use crate::unit::cross_direction;
 
 /// The patch over a quadrilateral with corners `P_0 … P_3`, counter-clockwise seen from outside, at
 /// the parameters `(η, ζ)` = (0, 0), (1, 0), (1, 1), (0, 1) \[Nagata10, section 2.1\]:
@@ -92,7 +92,9 @@ impl NagataQuad {
     #[inline]
     #[must_use]
     pub fn normal(&self, at: [f64; 2]) -> Option<DVec3> {
-        unit(self.area_normal(at))
+        let PatchJet { du, dv, .. } = self.jet(at);
+        let size = self.corners.into_iter().fold(DVec3::ZERO, |all, p| all.max(p.abs()));
+        cross_direction(du, dv, size.max_element())
     }
 
     /// Coefficients `[c00, c10, c01, c11, c20, c02, c21, c12]`; `c_mn` belongs to `η^m ζ^n`.

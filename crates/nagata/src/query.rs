@@ -7,6 +7,7 @@
 
 mod bounds;
 mod closest;
+mod convex;
 mod piece;
 mod ray;
 mod side;

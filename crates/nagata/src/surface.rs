@@ -160,16 +160,22 @@ impl NagataSurface {
         }
     }
 
+    /// The quadratic patch of a triangle.
+    #[inline]
+    pub(crate) fn quadratic(&self, face: FaceId, corners: [DVec3; 3]) -> NagataTriangle {
+        let curvature = [1, 2, 0].map(|corner| self.curvature_of(face, corner));
+        NagataTriangle { corners, curvature }
+    }
+
     #[inline]
     fn triangle(&self, face: FaceId, corners: [DVec3; 3]) -> Patch {
         match self.settings.continuity {
-            Continuity::Position => Patch::Triangle(NagataTriangle {
-                corners,
-                curvature: [1, 2, 0].map(|corner| self.curvature_of(face, corner)),
-            }),
+            Continuity::Position => Patch::Triangle(self.quadratic(face, corners)),
             Continuity::TangentPlane(planes) => {
-                let edges = [1, 2, 0].map(|corner| self.side_curve(Side { face, corner }));
-                let given = [0, 1, 2].map(|corner| self.normals.at(&self.mesh, face, corner));
+                let curve = |corner| self.side_curve(Side { face, corner });
+                let normal = |corner| self.normals.at(&self.mesh, face, corner);
+                let (edges, given) =
+                    ([curve(1), curve(2), curve(0)], [normal(0), normal(1), normal(2)]);
                 let settings = &self.settings.correction;
                 Patch::TangentPlane(G1Triangle::new(corners, edges, given, planes, settings))
             }

@@ -9,8 +9,7 @@ use crate::blend::Blend;
 use crate::correction::{Correction, CorrectionStatus, corner_normals};
 use crate::edge_curve::EdgeCurve;
 use crate::settings::{CorrectionSettings, TangentPlanes};
-use crate::triangle::{area_normal, normal_at_corner};
-use crate::unit::unit;
+use crate::triangle::{area_normal, normal_at_corner, normal_of};
 
 /// The patch over a triangle whose tangent planes along an edge depend on the edge's curve and the
 /// normals at its ends only, and so are those of the neighbour \[Nagata10, section 3\]:
@@ -40,6 +39,7 @@ impl G1Triangle {
     ///
     /// `given` are the unit normals that the curves were made from, if there are. They are used only
     /// at corners where the tangents of both edges are parallel. Any finite input gives a finite patch.
+    #[inline]
     #[must_use]
     pub fn new(
         corners: [DVec3; 3],
@@ -50,14 +50,11 @@ impl G1Triangle {
     ) -> Self {
         let base = BasePatch { corners, edges };
         let corner_normals = corner_normals(&base, &given, settings);
-        let both = Corner::ALL
-            .map(|corner| Correction::new(&base, corner, &corner_normals, planes, settings));
-        Self {
-            base,
-            corner_normals,
-            corrections: both.map(|(correction, _)| correction),
-            status: both.map(|(_, status)| status),
-        }
+        let new = |corner| Correction::new(&base, corner, &corner_normals, planes, settings);
+        // written out: a map over the corners would copy what is large
+        let [a, b, c] = Corner::ALL;
+        let ((c0, s0), (c1, s1), (c2, s2)) = (new(a), new(b), new(c));
+        Self { base, corner_normals, corrections: [c0, c1, c2], status: [s0, s1, s2] }
     }
 
     /// Corners, counter-clockwise seen from outside.
@@ -125,7 +122,7 @@ impl G1Triangle {
     /// singular corner the direction half way between the normals of the other two.
     #[must_use]
     pub fn normal(&self, at: Barycentric) -> Option<DVec3> {
-        normal_at_corner(at, &self.corner_normals).unwrap_or_else(|| unit(self.area_normal(at)))
+        normal_at_corner(at, &self.corner_normals).unwrap_or_else(|| normal_of(self.partials(at)))
     }
 
     /// Normal and curvature; `None` at the corners, where curvature depends on the direction of
@@ -134,6 +131,14 @@ impl G1Triangle {
     pub fn curvature(&self, at: Barycentric) -> Option<SurfaceJet> {
         Blend::at(at, Corner::First)?;
         self.jet(at).surface_jet()
+    }
+
+    /// The largest [`Correction::bounds`] of the edges.
+    pub(crate) fn correction_bounds(&self) -> Option<[f64; 3]> {
+        self.corrections.iter().try_fold([0.0_f64; 3], |[a, b, c], correction| {
+            let [x, y, z] = correction.bounds()?;
+            Some([a.max(x), b.max(y), c.max(z)])
+        })
     }
 
     /// Point and derivatives by the three parameters.

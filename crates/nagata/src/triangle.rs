@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::curvature_parameter::one_each;
 use crate::sample::{Row, fill_rows, lattice_size};
 use crate::settings::EdgeSettings;
-use crate::unit::unit;
+use crate::unit::{cross_direction, unit};
 
 /// The quadratic patch over a triangle \[Nagata10 (2.13)\], with barycentric parameters `b`:
 ///
@@ -76,7 +76,7 @@ impl NagataTriangle {
                 return normal;
             }
         }
-        unit(self.area_normal(at))
+        normal_of(self.partials(at))
     }
 
     /// Unit normal at a corner \[Nagata10 (2.36)\]; `None` if the tangents of its two edges are parallel
@@ -189,6 +189,13 @@ pub(crate) fn normal_at_corner(
 #[inline]
 pub(crate) fn area_normal([d0, d1, d2]: [DVec3; 3]) -> DVec3 {
     (d0 - d2).cross(d1 - d2)
+}
+
+/// The direction of the same; `None` where it is lost in round-off.
+#[inline]
+pub(crate) fn normal_of([d0, d1, d2]: [DVec3; 3]) -> Option<DVec3> {
+    let size = d0.abs().max(d1.abs()).max(d2.abs()).max_element();
+    cross_direction(d0 - d2, d1 - d2, size)
 }
 
 impl ParametricPatch for NagataTriangle {

@@ -1,5 +1,7 @@
 //! The correction that works for edges of any shape.
 
+mod bounds;
+
 use glam::DVec3;
 
 use crate::along::Along;
@@ -23,6 +25,7 @@ pub(crate) struct TurningNormal {
 }
 
 impl TurningNormal {
+    #[inline]
     pub(crate) fn new(data: &EdgeData) -> Self {
         let [n_j, n_k] = data.normals;
         // m·x for quadratic x is a cubic; if it vanishes at both ends, the rest is linear
@@ -73,7 +76,7 @@ impl TurningNormal {
         if normal_in_the_middle == DVec3::ZERO && needed {
             return f64::INFINITY;
         }
-        let middle = self.at::<1>(0.5).0[0].length();
-        middle.max(at_end(0, 0)).max(at_end(2, 1))
+        let Along([middle]) = self.at::<1>(0.5);
+        middle.length().max(at_end(0, 0)).max(at_end(2, 1))
     }
 }

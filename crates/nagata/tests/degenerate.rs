@@ -8,8 +8,8 @@ use common::GridMesh as _;
 use common::{Random, build, samples};
 use nagata::glam::DVec3;
 use nagata::{
-    CornerNormals, EdgeNormals, EdgeSettings, MeshError, NagataSurface, NormalsError, PolygonMesh,
-    Settings, SurfaceError, curvature_parameter,
+    CornerNormals, EdgeNormals, EdgeSettings, Join, MeshError, NagataSurface, NormalsError,
+    PolygonMesh, Settings, SurfaceError, curvature_parameter,
 };
 
 fn all_finite(surface: &NagataSurface) {
@@ -177,5 +177,38 @@ fn bad_settings_are_refused() {
         settings.edges.rank = value;
         let refused = NagataSurface::new(mesh.clone(), normals, settings).unwrap_err();
         assert!(matches!(refused, SurfaceError::Setting { name: "edges.rank", .. }), "{refused}");
+    }
+}
+
+/// Between two sound faces, a triangle without area: nothing can be smooth across its edges.
+#[test]
+fn edges_of_collinear_triangles_are_singular() {
+    let third = 1.0 / 3.0;
+    let along = DVec3::new(1.0, third, 0.1);
+    let positions = vec![
+        DVec3::ZERO,
+        along * 2.0,
+        along * third,
+        DVec3::new(0.5, 1.0, 0.0),
+        DVec3::new(0.2, -1.0, 0.0),
+        DVec3::new(1.7, -1.0, 0.0),
+    ];
+    // the one without area first
+    let faces = [[0, 2, 1], [0, 1, 3], [2, 0, 4], [1, 2, 5]];
+    let mesh = PolygonMesh::new(positions, &faces).unwrap();
+    let normal = along.cross(DVec3::Y).normalize();
+    let normals = CornerNormals::per_vertex(&mesh, &[normal; 6]).unwrap();
+    for settings in [Settings::tangent_plane(), Settings::published()] {
+        let surface = build(&mesh, &normals, settings);
+        let flat = surface.mesh().faces().next().unwrap();
+        for side in surface.mesh().sides(flat) {
+            assert_eq!(surface.join(surface.mesh().edge(side)), Join::Singular, "{side:?}");
+        }
+        let patch = surface.patch(flat);
+        for at in [[0.3, 0.3], [0.1, 0.7], [0.5, 0.5], [0.0, 0.25]] {
+            assert_eq!(patch.normal(at), None, "{at:?}");
+        }
+        assert!(patch.point([0.3, 0.3]).is_finite());
+        assert_eq!(surface.report().tangent_plane, 0);
     }
 }

@@ -5,13 +5,14 @@ mod common;
 
 use common::GridMesh as _;
 
+use common::queries::spot;
 use common::{Random, SPHERE, TORUS, build};
 use nagata::basemesh::{FaceId, VertexId};
 use nagata::bezier_core::{Barycentric, Corner, LocalEdge};
 use nagata::glam::DVec3;
 use nagata::{
-    Apex, EdgeCurve, EdgeNormals, EdgeSettings, NagataQuad, NagataSurface, NagataTriangle, Patch,
-    PolygonMesh, Settings, curvature_parameter,
+    Apex, Continuity, EdgeCurve, EdgeNormals, EdgeSettings, NagataQuad, NagataSurface,
+    NagataTriangle, Patch, PolygonMesh, Settings, TangentPlanes, curvature_parameter,
 };
 
 #[test]
@@ -189,5 +190,33 @@ fn batches_agree_with_single_points() {
     for (s, point) in points.iter().enumerate() {
         let at = [s / 5, s % 5].map(|k| k as f64 / 4.0);
         assert!(point.distance(quad.point(at)) <= 32.0 * f64::EPSILON, "{at:?}");
+    }
+}
+
+/// Each edge computed alone, one after the other, has the bits of the surface, which is built in parallel
+/// with the feature `rayon`.
+#[test]
+fn edges_computed_one_by_one_have_the_same_bits() {
+    for settings in [Settings::position(), Settings::published(), Settings::tangent_plane()] {
+        let surface = spot(settings);
+        let mut cubic = 0;
+        for edge in surface.mesh().edges() {
+            let [start, end] = surface.edge_normals(edge);
+            let normals = EdgeNormals { start: &start, end: &end };
+            let [a, b] = surface.mesh().edge_vertices(edge).map(|v| surface.mesh().position(v));
+            let found = curvature_parameter(b - a, normals, &settings.edges);
+            let expected = if surface.edge_status(edge).cubic {
+                cubic += 1;
+                EdgeCurve::cubic(b - a, normals, &settings.edges)
+            } else {
+                EdgeCurve::quadratic(found.value)
+            };
+            let bits = |curve: EdgeCurve| {
+                [curve.curvature, curve.skew].map(|v| v.to_array().map(f64::to_bits))
+            };
+            assert_eq!(bits(surface.edge_curve(edge)), bits(expected), "{edge:?}");
+        }
+        let robust = settings.continuity == Continuity::TangentPlane(TangentPlanes::Robust);
+        assert_eq!(cubic > 0, robust, "{cubic} cubic edges");
     }
 }

@@ -19,5 +19,5 @@ pub use files::{
     CurvedGrid, chord_tessellation, curved_grid, curved_mesh, flat_gap, polygons, samples,
 };
 #[cfg(feature = "io")]
-pub use from_polygons::{NagataError, NormalSource, from_polygons};
+pub use from_polygons::{NagataError, NormalSource, Tips, from_polygons, from_polygons_with_tips};
 pub use report::{EdgeFlaw, NagataFigures, NagataReport, report};

@@ -70,6 +70,32 @@ fn any_number_of_threads() {
     assert_eq!(with(5), one, "5 threads");
 }
 
+/// Nagata surfaces as well.
+#[cfg(feature = "rayon")]
+#[test]
+fn nagata_surfaces_with_any_number_of_threads() {
+    use smoothpatch::nagata::{CornerNormals, NagataSurface, PolygonMesh, Settings};
+    let shape = NamedShape::find("double-torus").unwrap();
+    let base = surface(Method::Published);
+    let mesh = PolygonMesh::from(&base.mesh);
+    let field = shape.field();
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            [Settings::position(), Settings::tangent_plane()].map(|settings| {
+                let normals = CornerNormals::from_fn(&mesh, |p| Some(field.value_gradient(p).1));
+                let surface = NagataSurface::new(mesh.clone(), normals, settings).unwrap();
+                let curves = surface.mesh().edges().map(|edge| surface.edge_curve(edge));
+                let numbers = curves.flat_map(|c| [c.curvature, c.skew]).flat_map(|v| v.to_array());
+                numbers.map(f64::to_bits).collect::<Vec<_>>()
+            })
+        })
+    };
+    let one = with(1);
+    assert_eq!(with(2), one, "2 threads");
+    assert_eq!(with(5), one, "5 threads");
+}
+
 /// Element maps are filled as a loop over the ids would fill them, with either feature.
 #[test]
 fn maps_are_filled_in_order() {

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use smoothpatch::nagata::{Settings, TangentPlanes};
+use smoothpatch::nagata::{Apex, Settings, TangentPlanes};
+use smoothpatch::nagata_surface::Tips;
 
 use crate::output_files::extension;
 use crate::values;
@@ -35,6 +36,15 @@ pub(crate) struct SurfaceOptions {
     #[arg(allow_hyphen_values = true)]
     pub(crate) crease_angle: f64,
 
+    /// Which normals sharp tips have, such as the apexes of cones [default: as elsewhere]
+    #[arg(long, value_enum, value_name = "none|faces|axis")]
+    pub(crate) apex: Option<ApexName>,
+
+    /// Tips are vertices from whose mean normal all faces turn by more than this
+    #[arg(long, value_name = "DEG", default_value = "30", value_parser = values::crease_angle)]
+    #[arg(allow_hyphen_values = true, requires = "apex")]
+    pub(crate) apex_angle: f64,
+
     /// Cut quadrilaterals along their shorter diagonals, and larger faces around their first corners
     #[arg(long)]
     pub(crate) triangulate: bool,
@@ -45,6 +55,12 @@ impl SurfaceOptions {
     pub(crate) fn files_read(&self) -> Vec<&Path> {
         let scene = self.normals.as_ref().and_then(NormalsName::scene);
         [Some(self.mesh.as_path()), scene].into_iter().flatten().collect()
+    }
+
+    /// What tips get, if they are to be treated.
+    pub(crate) fn tips(&self) -> Option<Tips> {
+        let angle = self.apex_angle.to_radians();
+        self.apex.map(|name| Tips { angle, normals: name.into() })
     }
 
     /// Settings of the construction.
@@ -83,6 +99,26 @@ impl From<TangentPlanesName> for TangentPlanes {
         match name {
             TangentPlanesName::Robust => Self::Robust,
             TangentPlanesName::Published => Self::Published,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ApexName {
+    /// None: straight rulings and regular patches, but small kinks at the tip; for finite elements
+    None,
+    /// One for each face: exact cones without kinks, whose derivatives vanish at the tip
+    Faces,
+    /// The axis: the same for straight rulings
+    Axis,
+}
+
+impl From<ApexName> for Apex {
+    fn from(name: ApexName) -> Self {
+        match name {
+            ApexName::None => Self::NoNormal,
+            ApexName::Faces => Self::FaceNormals,
+            ApexName::Axis => Self::Axis,
         }
     }
 }

@@ -18,6 +18,8 @@ pub(crate) struct ReportFile<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     crease_angle_deg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    tips: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     reference: Option<&'a str>,
     settings: Settings,
     #[serde(flatten)]
@@ -32,6 +34,7 @@ impl<'a> ReportFile<'a> {
             mesh: &task.mesh,
             normals: normals_text(&task.normals),
             crease_angle_deg: task.crease_angle,
+            tips: task.tips,
             reference: task.reference.as_ref().map(|(name, _)| name.as_str()),
             settings: task.settings,
             report,

@@ -23,6 +23,9 @@ pub(crate) fn summary(
             None => normals_text(&task.normals),
         },
     );
+    if let Some(count) = task.tips {
+        table.row("tips", count);
+    }
     mesh(&mut table, report);
     joints(&mut table, report);
     deviation(&mut table, task, report);

@@ -7,7 +7,9 @@ use smoothpatch::FieldSource;
 use smoothpatch::implicit::{ImplicitSurface, ProjectionSettings};
 use smoothpatch::io::{LargeFaces, ObjReadError, Polygon, Polygons, Scene, read_polygons_file};
 use smoothpatch::nagata::{NagataSurface, Settings, SurfaceError};
-use smoothpatch::nagata_surface::{NagataError, NormalSource, from_polygons};
+use smoothpatch::nagata_surface::{
+    NagataError, NormalSource, from_polygons, from_polygons_with_tips,
+};
 use smoothpatch::scene::field_of;
 
 use super::options::{NormalsName, SurfaceOptions};
@@ -21,6 +23,8 @@ pub(crate) struct Task {
     pub(crate) crease_angle: Option<f64>,
     /// The surface to compare with, and its name.
     pub(crate) reference: Option<(String, Box<dyn ImplicitSurface>)>,
+    /// Number of tips whose normals were changed, if asked for.
+    pub(crate) tips: Option<usize>,
     pub(crate) surface: NagataSurface,
 }
 
@@ -45,14 +49,19 @@ impl Task {
             (NormalsUsed::File, None) => NormalSource::File,
             (_, None) => NormalSource::Estimate { crease_angle: options.crease_angle.to_radians() },
         };
-        let surface = from_polygons(&polygons, source, settings)
-            .map_err(|error| explain(&options.mesh, &error))?;
+        let made = match options.tips() {
+            None => from_polygons(&polygons, source, settings).map(|surface| (surface, None)),
+            Some(tips) => from_polygons_with_tips(&polygons, source, tips, settings)
+                .map(|(surface, count)| (surface, Some(count))),
+        };
+        let (surface, tips) = made.map_err(|error| explain(&options.mesh, &error))?;
         Ok(Self {
             mesh: options.mesh.clone(),
             settings,
             crease_angle: (normals == NormalsUsed::Estimate).then_some(options.crease_angle),
             normals,
             reference,
+            tips,
             surface,
         })
     }

@@ -219,3 +219,40 @@ fn the_number_of_threads_changes_no_byte() {
     assert!(place.read("1.vtu") == place.read("2.vtu"), "the cells differ");
     assert!(place.read("1.obj") == place.read("2.obj"), "the triangles differ");
 }
+
+/// A cone over a circle of radius 1 with its tip at height 1, `n` segments, no lid.
+fn cone(n: usize) -> String {
+    let mut text = String::new();
+    for k in 0..n {
+        let angle = TAU * k as f64 / n as f64;
+        writeln!(text, "v {:?} {:?} 0", angle.cos(), angle.sin()).unwrap();
+    }
+    writeln!(text, "v 0 0 1").unwrap();
+    for k in 0..n {
+        writeln!(text, "f {} {} {}", k + 1, (k + 1) % n + 1, n + 1).unwrap();
+    }
+    text
+}
+
+/// With a normal for each face the patches are cones up to the error of their base arcs; with the mean
+/// normal of all, as anywhere else, the tip is blunt.
+#[test]
+fn tips_become_cones() {
+    let place = Workplace::new();
+    place.write("cone.obj", cone(12));
+    let worst = |options: &str| {
+        let table = place.succeed(&format!("nagata cone.obj -o out.obj {options}"));
+        let mesh = read_polygons_file(place.path("out.obj"), LargeFaces::Refuse).unwrap();
+        let off = |p: &DVec3| (p.truncate().length() + p.z - 1.0).abs();
+        (table, mesh.positions.iter().map(off).fold(0.0, f64::max))
+    };
+    let (_, plain) = worst("");
+    for (name, bound) in [("none", 0.02), ("faces", 2e-3), ("axis", 2e-3)] {
+        let (table, off) = worst(&format!("--apex {name}"));
+        has_rows(&table, &["tips 1"]);
+        assert!(off < bound, "{name}: {off}");
+        assert!(off <= plain, "{name}: {off}, without: {plain}");
+    }
+    let (table, _) = worst("--apex none --apex-angle 80");
+    has_rows(&table, &["tips 0"]);
+}

@@ -1,10 +1,10 @@
 //! The closest point of one patch.
 
-use bezier_core::PatchJet;
 use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
-use super::piece::{Piece, closest_weights};
+use super::convex::{hessian, is_convex};
+use super::piece::{Flat, Piece, closest_weights};
 use crate::surface::Patch;
 
 /// Relative to the size of a patch: pieces that might be closer by less are not looked at.
@@ -12,31 +12,27 @@ const RESOLUTION: f64 = 1e-10;
 /// No piece is smaller than this; its distance to its flat triangle is below round-off.
 const SMALLEST_LEG: f64 = 1.0 / (1 << 26) as f64;
 
-/// Parameters and distance of the point of a patch that is closest to `p`, if it is not farther than
-/// `limit`.
+/// Parameters and distance of the point of a patch, or of one half of it, that is closest to `p`, if it is not farther than `limit`. `open` is working space.
 pub(super) fn closest(
     patch: &Patch,
-    bounds: &Bounds,
+    flat: &Flat,
     p: DVec3,
     limit: f64,
+    open: &mut Vec<(f64, Piece)>,
 ) -> Option<([f64; 2], f64)> {
-    let mut search = Search { patch, bounds, p, best: limit, at: None, slack: 0.0 };
-    let mut open: Vec<(f64, Piece)> = Vec::with_capacity(16);
-    for piece in Piece::whole(patch) {
-        let [a, b, c] = piece.points;
-        search.slack = RESOLUTION * a.distance(b).max(b.distance(c)).max(c.distance(a));
-        open.push((search.lower_bound(&piece), piece));
-    }
-    open.sort_by(|a, b| b.0.total_cmp(&a.0));
-    while let Some((lower, piece)) = open.pop() {
-        let slack = if search.at.is_some() { search.slack } else { 0.0 };
-        if lower + slack > search.best || search.settles(&piece) || piece.leg < SMALLEST_LEG {
-            continue;
+    let slack = RESOLUTION * flat.size();
+    let mut search = Search { patch, bounds: &flat.bounds, p, best: limit, at: None };
+    open.clear();
+    let mut next = Some((0.0, Piece::of(flat)));
+    while let Some((lower, piece)) = next {
+        let out_of_reach = search.at.is_some() && lower + slack > search.best;
+        if !out_of_reach && !search.settles(&piece) && piece.leg >= SMALLEST_LEG {
+            let mut parts = piece.parts(patch).map(|part| (search.lower_bound(&part), part));
+            // the most promising one last, to be taken first
+            parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+            open.extend(parts.into_iter().filter(|(lower, _)| *lower <= search.best));
         }
-        let mut parts = piece.parts(patch).map(|part| (search.lower_bound(&part), part));
-        // the most promising one last, to be taken first
-        parts.sort_by(|a, b| b.0.total_cmp(&a.0));
-        open.extend(parts);
+        next = open.pop();
     }
     search.at.map(|at| (at.to_array(), search.best))
 }
@@ -47,7 +43,6 @@ struct Search<'a> {
     p: DVec3,
     best: f64,
     at: Option<DVec2>,
-    slack: f64,
 }
 
 impl Search<'_> {
@@ -58,64 +53,43 @@ impl Search<'_> {
         (a * s + b * t + c * u).distance(self.p) - piece.bulge(self.bounds)
     }
 
-    fn offer(&mut self, at: DVec2, point: DVec3) {
-        let distance = point.distance(self.p);
+    fn offer(&mut self, at: DVec2, distance: f64) {
         if distance < self.best || (self.at.is_none() && distance <= self.best) {
             (self.best, self.at) = (distance, Some(at));
         }
     }
 
-    /// Looks for the minimum of `f = |x - p|²/2` in the piece; whether it is certainly found: `f` is
-    /// convex there, and `f(q) >= f(at) + ∇f(at)·(q - at)` leaves no room.
+    /// Looks for the minimum of `f = |x - p|²/2` in the piece; whether it is certainly found or not
+    /// wanted: `f` is convex there, and `f(q) >= f(at) + ∇f(at)·(q - at)` leaves no room.
     fn settles(&mut self, piece: &Piece) -> bool {
-        let centre = piece.centre();
-        let convex = self.is_convex(piece, &self.patch.jet(centre.to_array()));
         let [s, t, u] = closest_weights(self.p, piece.points);
         let [a, b, c] = piece.corners;
         let mut at = a * s + b * t + c * u;
-        if !convex {
-            self.offer(at, self.patch.point(at.to_array()));
+        let centre = self.patch.jet(piece.centre().to_array());
+        if !is_convex(piece, self.bounds, &centre, self.p) {
+            let point = self.patch.point(at.to_array());
+            self.offer(at, point.distance(self.p));
             return false;
         }
         for _ in 0..10 {
             let jet = self.patch.jet(at.to_array());
             let d = jet.point - self.p;
-            self.offer(at, jet.point);
+            let distance = d.length();
+            self.offer(at, distance);
             let gradient = DVec2::new(d.dot(jet.du), d.dot(jet.dv));
             let decrease = piece.corners.map(|q| -gradient.dot(q - at));
             let gap = decrease.into_iter().fold(0.0, f64::max);
             // round-off of the gradient
             let size = jet.du.length().max(jet.dv.length()) * piece.leg;
-            if gap <= 8.0 * f64::EPSILON * size * (d.length() + jet.point.length() + size) {
+            let rounded = 8.0 * f64::EPSILON * size * (distance + jet.point.length() + size);
+            let too_far = distance * distance - 2.0 * (gap + rounded) > self.best * self.best;
+            if gap <= rounded || too_far {
                 return true;
             }
             at = newton_step(piece, at, gradient, hessian(&jet, d));
         }
         false
     }
-
-    /// Whether `f` is convex on the piece: its Hessian at the centre is larger than it can change.
-    fn is_convex(&self, piece: &Piece, jet: &PatchJet) -> bool {
-        let d = jet.point - self.p;
-        let [huu, huv, hvv] = hessian(jet, d);
-        let smallest = 0.5 * (huu + hvv) - (0.5 * (huu - hvv)).hypot(huv);
-        let Bounds { second, third, jump } = *self.bounds;
-        let radius = piece.radius();
-        let slope = (jet.du.length_squared() + jet.dv.length_squared()).sqrt();
-        let slope_change = second * radius;
-        let moved = (slope + slope_change) * radius;
-        smallest
-            > 2.0 * slope * slope_change + moved * second + d.length() * (third * radius + jump)
-    }
-}
-
-/// Second derivatives `[uu, uv, vv]` of `|x - p|²/2`, `d = x - p`.
-fn hessian(jet: &PatchJet, d: DVec3) -> [f64; 3] {
-    [
-        jet.du.length_squared() + d.dot(jet.duu),
-        jet.du.dot(jet.dv) + d.dot(jet.duv),
-        jet.dv.length_squared() + d.dot(jet.dvv),
-    ]
 }
 
 /// The minimum in the piece of the quadratic function with this gradient and Hessian at `at`.

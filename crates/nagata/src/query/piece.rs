@@ -1,9 +1,11 @@
 //! Boxes, and pieces of patches.
 
+use basemesh::FaceId;
 use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
 use super::ray::Ray;
+use crate::quad::NagataQuad;
 use crate::surface::Patch;
 
 /// A box with sides parallel to the axes.
@@ -16,10 +18,11 @@ pub struct Aabb {
 }
 
 impl Aabb {
+    pub(super) const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+
     /// The smallest box around points.
     pub(super) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
-        let empty = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
-        points.into_iter().fold(empty, |all, p| all.with(&Self { low: p, high: p }))
+        points.into_iter().fold(Self::EMPTY, |all, p| all.with(&Self { low: p, high: p }))
     }
 
     pub(super) fn with(&self, other: &Self) -> Self {
@@ -32,12 +35,6 @@ impl Aabb {
 
     pub(super) fn size(&self) -> f64 {
         self.low.distance(self.high)
-    }
-
-    /// Distance from a point; zero inside.
-    #[inline]
-    pub(super) fn distance(&self, p: DVec3) -> f64 {
-        (self.low - p).max(p - self.high).max(DVec3::ZERO).length()
     }
 
     /// Where a ray enters, at `from` at the earliest; `None` if it does not before `to`.
@@ -62,6 +59,72 @@ impl Aabb {
     }
 }
 
+/// The flat triangle of a patch, or one of the two of a quadrilateral.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flat {
+    pub(super) corners: [DVec3; 3],
+    /// Of the patch.
+    pub(super) bounds: Bounds,
+    pub(super) face: FaceId,
+    /// Which one of them: 0 or 1.
+    pub(super) half: u8,
+}
+
+impl Flat {
+    /// Those of a patch.
+    pub(super) fn all(patch: &Patch, bounds: Bounds, face: FaceId) -> impl Iterator<Item = Self> {
+        let (first, second) = match patch {
+            Patch::Triangle(patch) => (patch.corners, None),
+            Patch::TangentPlane(patch) => (patch.corners(), None),
+            Patch::Quad(NagataQuad { corners: [a, b, c, d], .. }) => {
+                ([*b, *d, *a], Some([*b, *c, *d]))
+            }
+        };
+        let [a, b, c] = first;
+        // the first corner of the parameters is the last one of a triangle
+        [Some([c, a, b]), second].into_iter().flatten().zip(0..).map(move |(corners, half)| Self {
+            corners,
+            bounds,
+            face,
+            half,
+        })
+    }
+
+    /// The corners of a triangle in the order of its face.
+    pub(super) fn in_order(&self) -> [DVec3; 3] {
+        let [c, a, b] = self.corners;
+        [a, b, c]
+    }
+
+    /// Faces in order.
+    pub(super) fn order(&self) -> (FaceId, u8) {
+        (self.face, self.half)
+    }
+
+    /// Twice the area times the unit normal.
+    pub(super) fn area_normal(&self) -> DVec3 {
+        let [a, b, c] = self.corners;
+        (b - a).cross(c - a)
+    }
+
+    pub(super) fn centre(&self) -> DVec3 {
+        let [a, b, c] = self.corners;
+        (a + b + c) / 3.0
+    }
+
+    /// The longest side.
+    pub(super) fn size(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
+    }
+
+    pub(super) fn distance(&self, p: DVec3) -> f64 {
+        let [a, b, c] = self.corners;
+        let [s, t, u] = closest_weights(p, self.corners);
+        (a * s + b * t + c * u).distance(p)
+    }
+}
+
 /// A right triangle in parameter space, with legs `2^-level`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
@@ -72,15 +135,12 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// The pieces that make up a patch: one or two.
-    pub(super) fn whole(patch: &Patch) -> impl Iterator<Item = Self> {
-        let (x, y, zero, one) = (DVec2::X, DVec2::Y, DVec2::ZERO, DVec2::ONE);
-        let second = matches!(patch, Patch::Quad(_)).then_some([x, one, y]);
-        [Some([zero, x, y]), second].into_iter().flatten().map(|corners| Self {
-            corners,
-            points: corners.map(|at| patch.point(at.to_array())),
-            leg: 1.0,
-        })
+    /// A whole triangle, or half of a quadrilateral.
+    #[inline]
+    pub(super) fn of(flat: &Flat) -> Self {
+        let (x, y) = (DVec2::X, DVec2::Y);
+        let corners = if flat.half == 0 { [DVec2::ZERO, x, y] } else { [x, DVec2::ONE, y] };
+        Self { corners, points: flat.corners, leg: 1.0 }
     }
 
     /// Four pieces of half the size.
@@ -99,11 +159,9 @@ impl Piece {
         ]
     }
 
-    /// How far the piece may be from the flat triangle of its corners: for a function with second
-    /// derivatives up to `M` it is `½ M Σ b_i b_j |e_ij|²` at most, and the sum is at most half the
-    /// square of the leg.
+    /// How far the piece may be from the flat triangle of its corners.
     pub(super) fn bulge(&self, bounds: &Bounds) -> f64 {
-        0.25 * bounds.second * self.leg * self.leg
+        bounds.bulge * self.leg * self.leg
     }
 
     pub(super) fn centre(&self) -> DVec2 {

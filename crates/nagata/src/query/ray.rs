@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
-use super::piece::{Aabb, Piece};
+use super::piece::{Aabb, Flat, Piece};
 use crate::surface::Patch;
 
 /// Pieces are not made smaller: what is left there is a tangent ray.
@@ -46,16 +46,23 @@ impl Ray {
     }
 }
 
-/// Parameters on the patch and on the ray of all hits with `t` in `[0, to]`, in no order; one that lies
-/// on the border of pieces may appear more than once.
-pub(super) fn hits(patch: &Patch, bounds: &Bounds, ray: &Ray, to: f64) -> Vec<([f64; 2], f64)> {
+/// Hands over parameters on the patch and on the ray of all hits of a patch, or of one half of it,
+/// with `t` in `[0, to]`, in no order; one that lies on the border of pieces may appear more than once.
+pub(super) fn hits(
+    patch: &Patch,
+    flat: &Flat,
+    ray: &Ray,
+    to: f64,
+    mut take: impl FnMut([f64; 2], f64),
+) {
     let x =
         (ray.direction / ray.direction.abs().max_element()).normalize().any_orthonormal_vector();
     let y = ray.direction.cross(x).normalize_or_zero();
+    let bounds = &flat.bounds;
     let cast = Cast { patch, bounds, ray, plane: [x, y] };
-    let mut open: Vec<Piece> = Piece::whole(patch).collect();
-    let mut found = Vec::new();
-    while let Some(piece) = open.pop() {
+    let mut open: Vec<Piece> = Vec::new();
+    let mut next = Some(Piece::of(flat));
+    while let Some(piece) = next.take().or_else(|| open.pop()) {
         let bulge = piece.bulge(bounds) + ray.round_off(piece.points[0]);
         if Aabb::around(piece.points).grown(bulge).entry(ray, 0.0, to).is_none() {
             continue;
@@ -63,12 +70,12 @@ pub(super) fn hits(patch: &Patch, bounds: &Bounds, ray: &Ray, to: f64) -> Vec<([
         let last = piece.leg < SMALLEST_LEG;
         let certain = cast.at_most_one(&piece);
         if last || certain {
-            found.extend(cast.hit(&piece, certain).filter(|(_, t)| (0.0..=to).contains(t)));
+            let hit = cast.hit(&piece, certain).filter(|(_, t)| (0.0..=to).contains(t));
+            hit.into_iter().for_each(|(at, t)| take(at, t));
         } else if !cast.runs_inside(&piece) {
             open.extend(piece.parts(patch));
         }
     }
-    found
 }
 
 struct Cast<'a> {

@@ -4,7 +4,7 @@ use basemesh::FaceId;
 use glam::DVec3;
 
 use super::bounds::{self, Bounds};
-use super::piece::Aabb;
+use super::piece::{Aabb, Flat, Piece};
 use super::ray::{self, Ray};
 use super::side::{self, Candidate};
 use super::tree::Tree;
@@ -17,6 +17,15 @@ const TIE: f64 = 1e-12;
 const SAME_POINT: f64 = 1e-9;
 /// Hits of faces with a common vertex that are closer than this, in sizes of the patch, are one.
 const SAME_HIT: f64 = 1e-10;
+
+/// The closest point of one face.
+#[derive(Clone, Copy, Debug)]
+struct Near {
+    face: FaceId,
+    parameters: [f64; 2],
+    distance: f64,
+    size: f64,
+}
 
 impl Patch {
     /// A box around the patch.
@@ -32,8 +41,12 @@ impl Patch {
     #[must_use]
     pub fn closest(&self, p: DVec3) -> Option<(PatchPoint, f64)> {
         let bounds = Bounds::of(self);
-        let found = closest::closest(self, &bounds, p, f64::INFINITY).filter(|_| p.is_finite());
-        found.map(|(parameters, distance)| signed(self.at(parameters), p, distance))
+        let mut open = Vec::new();
+        let each = Flat::all(self, bounds, FaceId::new(0))
+            .filter_map(|flat| closest::closest(self, &flat, p, f64::INFINITY, &mut open));
+        let (parameters, distance) =
+            each.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|_| p.is_finite())?;
+        Some(signed(self.at(parameters), p, distance))
     }
 
     /// All points where a ray meets the patch, with the ray parameters, ascending. None if the ray is
@@ -43,9 +56,12 @@ impl Patch {
         let mut all = Vec::new();
         if ray.is_valid() {
             let bounds = Bounds::of(self);
-            let found = ray::hits(self, &bounds, ray, f64::INFINITY).into_iter();
-            all.extend(found.map(|(parameters, t)| (self.at(parameters), t)));
             let size = bounds::aabb(self, &bounds).size();
+            for flat in Flat::all(self, bounds, FaceId::new(0)) {
+                ray::hits(self, &flat, ray, f64::INFINITY, |parameters, t| {
+                    all.push((self.at(parameters), t));
+                });
+            }
             all.sort_by(|a, b| a.1.total_cmp(&b.1));
             all.dedup_by(|b, a| is_same(ray, size, a, b));
         }
@@ -72,26 +88,27 @@ fn is_same(ray: &Ray, size: f64, a: &(PatchPoint, f64), b: &(PatchPoint, f64)) -
 #[derive(Clone, Debug)]
 pub struct SurfaceQueries<'a> {
     surface: &'a NagataSurface,
-    bounds: Vec<Bounds>,
-    boxes: Vec<Aabb>,
+    /// The items of the tree.
+    flats: Vec<Flat>,
     tree: Tree,
+    aabb: Aabb,
 }
 
 impl<'a> SurfaceQueries<'a> {
     /// Prepares queries.
     #[must_use]
     pub fn new(surface: &'a NagataSurface) -> Self {
-        let (bounds, boxes): (Vec<_>, Vec<_>) = surface
-            .mesh()
-            .faces()
-            .map(|face| {
-                let patch = surface.patch(face);
-                let bounds = Bounds::of(&patch);
-                (bounds, bounds::aabb(&patch, &bounds))
-            })
-            .unzip();
-        let tree = Tree::new(&boxes);
-        Self { surface, bounds, boxes, tree }
+        let count = surface.mesh().face_count();
+        let mut flats = Vec::with_capacity(count);
+        let mut aabb = Aabb::EMPTY;
+        for face in surface.mesh().faces() {
+            let patch = surface.patch(face);
+            let bounds = Bounds::of(&patch);
+            aabb = aabb.with(&bounds::aabb(&patch, &bounds));
+            flats.extend(Flat::all(&patch, bounds, face));
+        }
+        let tree = Tree::new(&mut flats);
+        Self { surface, flats, tree, aabb }
     }
 
     /// The surface.
@@ -103,7 +120,7 @@ impl<'a> SurfaceQueries<'a> {
     /// A box around the surface.
     #[must_use]
     pub fn aabb(&self) -> Aabb {
-        self.tree.aabb()
+        self.aabb
     }
 
     /// The closest point; `None` if `p` is not finite.
@@ -119,35 +136,59 @@ impl<'a> SurfaceQueries<'a> {
         let far = p.abs().max(low.abs()).max(high.abs()).max_element();
         let widened = |distance: f64| distance * (1.0 + TIE) + 8.0 * f64::EPSILON * far;
         let mut best = f64::INFINITY;
-        let mut candidates: Vec<Candidate> = Vec::new();
-        let key = |aabb: &Aabb, _| Some(aabb.distance(p));
-        self.tree.visit(f64::INFINITY, key, |item| {
-            if self.boxes[item].distance(p) <= widened(best) {
-                let next = self.candidate(item, p, widened(best));
-                best = next.map_or(best, |next| best.min(next.found.signed_distance));
-                candidates.extend(next);
+        let (mut nearest, mut open): (Vec<Near>, _) = (Vec::new(), Vec::new());
+        self.tree.visit_near(p, f64::INFINITY, |item| {
+            let flat = &self.flats[item];
+            let next = (flat.distance(p) <= widened(best) + flat.bounds.bulge)
+                .then(|| self.near(flat, p, widened(best), &mut open));
+            if let Some(next) = next.flatten() {
+                best = best.min(next.distance);
+                nearest.retain(|near| near.distance <= widened(best) && near.face != next.face);
+                nearest.push(next);
             }
             widened(best)
         });
-        let nearest = candidates.iter().min_by(|a, b| {
-            let distance = |c: &Candidate| c.found.signed_distance;
-            distance(a).total_cmp(&distance(b)).then(a.found.face.cmp(&b.found.face))
-        })?;
-        let at = nearest.found.at.point;
-        let same = SAME_POINT * self.boxes[nearest.found.face.index()].size();
-        candidates.retain(|c| {
-            c.found.signed_distance <= widened(best) && c.found.at.point.distance(at) <= same
-        });
+        let order =
+            |a: &Near, b: &Near| a.distance.total_cmp(&b.distance).then(a.face.cmp(&b.face));
+        let first = *nearest.iter().min_by(|a, b| order(a, b))?;
+        let patch = self.surface.patch(first.face);
+        let at = patch.point(first.parameters);
+        let same = SAME_POINT * first.size;
+        let candidates: Vec<Candidate> = nearest
+            .into_iter()
+            .filter(|near| near.distance <= widened(best))
+            .map(|near| self.candidate(&near))
+            .filter(|candidate| candidate.found.at.point.distance(at) <= same)
+            .collect();
         side::signed(&candidates, p)
     }
 
-    /// The closest point of one face, if it is not farther than `limit`, without sign.
-    fn candidate(&self, item: usize, p: DVec3, limit: f64) -> Option<Candidate> {
-        let face = FaceId::new(item);
+    /// The closest point of one face or half of it, if it is not farther than `limit`.
+    fn near(
+        &self,
+        flat: &Flat,
+        p: DVec3,
+        limit: f64,
+        open: &mut Vec<(f64, Piece)>,
+    ) -> Option<Near> {
+        let face = flat.face;
+        if flat.bounds.off_quadratic > 0.0 {
+            // the quadratic patch nearby is much faster to search
+            let quadratic = Patch::Triangle(self.surface.quadratic(face, flat.in_order()));
+            let off = flat.bounds.off_quadratic;
+            let flat = Flat { bounds: Bounds::of(&quadratic), ..*flat };
+            closest::closest(&quadratic, &flat, p, limit + off, open)?;
+        }
         let patch = self.surface.patch(face);
-        let (parameters, signed_distance) = closest::closest(&patch, &self.bounds[item], p, limit)?;
-        let found = Closest { face, at: patch.at(parameters), signed_distance };
-        Some(Candidate { found, weight: side::angle_at(&patch, parameters) })
+        let (parameters, distance) = closest::closest(&patch, flat, p, limit, open)?;
+        Some(Near { face, parameters, distance, size: flat.size() })
+    }
+
+    fn candidate(&self, near: &Near) -> Candidate {
+        let Near { face, parameters, distance, .. } = *near;
+        let patch = self.surface.patch(face);
+        let found = Closest { face, at: patch.at(parameters), signed_distance: distance };
+        Candidate { found, weight: side::angle_at(&patch, parameters) }
     }
 
     /// The first hit of a ray, with the smallest parameter; `None` if there is none or the ray is not
@@ -155,7 +196,7 @@ impl<'a> SurfaceQueries<'a> {
     #[must_use]
     pub fn first_hit(&self, ray: &Ray) -> Option<Hit> {
         let mut best: Option<Hit> = None;
-        self.visit_hits(ray, |hit, limit| {
+        self.visit_hits(ray, |hit, _, limit| {
             if best.is_none_or(|best| (hit.t, hit.face) < (best.t, best.face)) {
                 best = Some(hit);
             }
@@ -169,12 +210,11 @@ impl<'a> SurfaceQueries<'a> {
     /// [valid](Ray::is_valid).
     #[must_use]
     pub fn hits(&self, ray: &Ray) -> Vec<Hit> {
-        let mut all: Vec<Hit> = Vec::new();
-        self.visit_hits(ray, |hit, _| all.push(hit));
-        all.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.face.cmp(&b.face)));
+        let mut all: Vec<(Hit, f64)> = Vec::new();
+        self.visit_hits(ray, |hit, size, _| all.push((hit, size)));
+        all.sort_by(|(a, _), (b, _)| a.t.total_cmp(&b.t).then(a.face.cmp(&b.face)));
         let mut kept: Vec<Hit> = Vec::with_capacity(all.len());
-        for hit in all {
-            let size = self.boxes[hit.face.index()].size();
+        for (hit, size) in all {
             let same = |k: &&mut Hit| is_same(ray, size, &(k.at, k.t), &(hit.at, hit.t));
             let mut recent = kept.iter_mut().rev().take_while(same);
             match recent.find(|k| self.touch(k.face, hit.face)) {
@@ -191,25 +231,20 @@ impl<'a> SurfaceQueries<'a> {
         mesh.corners(a).iter().any(|v| mesh.corners(b).contains(v))
     }
 
-    fn visit_hits(&self, ray: &Ray, mut take: impl FnMut(Hit, &mut f64)) {
+    fn visit_hits(&self, ray: &Ray, mut take: impl FnMut(Hit, f64, &mut f64)) {
         if !ray.is_valid() {
             return;
         }
         let mut limit = f64::INFINITY;
-        self.tree.visit(
-            limit,
-            |aabb, limit| {
-                aabb.grown(ray.round_off(aabb.low.abs().max(aabb.high.abs())))
-                    .entry(ray, 0.0, limit)
-            },
-            |item| {
-                let face = FaceId::new(item);
-                let patch = self.surface.patch(face);
-                for (parameters, t) in ray::hits(&patch, &self.bounds[item], ray, limit) {
-                    take(Hit { face, at: patch.at(parameters), t }, &mut limit);
-                }
-                limit
-            },
-        );
+        let slack = ray.round_off(self.aabb.low.abs().max(self.aabb.high.abs()));
+        self.tree.visit_along(ray, slack, |item| {
+            let flat = &self.flats[item];
+            let (face, patch) = (flat.face, self.surface.patch(flat.face));
+            let (to, size) = (limit, flat.size());
+            ray::hits(&patch, flat, ray, to, |parameters, t| {
+                take(Hit { face, at: patch.at(parameters), t }, size, &mut limit);
+            });
+            limit
+        });
     }
 }

@@ -1,102 +1,239 @@
-//! A hierarchy of boxes.
+//! A hierarchy of oriented boxes around flat triangles.
 
-use super::piece::Aabb;
+use glam::DVec3;
 
-/// Most boxes in a leaf.
-const LEAF: usize = 2;
+use super::piece::Flat;
+use super::ray::Ray;
 
-/// A binary tree over numbered boxes. Each half holds as many boxes as the other: the depth is the
-/// logarithm of their number, whatever they are.
+/// Children of a node.
+pub(super) const WIDTH: usize = 8;
+/// Marks an item among the entries of a traversal.
+const ITEM: u32 = 1 << 31;
+
+/// A tree over numbered items, each a flat triangle with what bulges from it. Items are numbered in the
+/// order of the leaves; the depth is the logarithm of their number, whatever they are.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
     nodes: Vec<Node>,
-    /// Numbers of the boxes, in the order of the leaves.
-    order: Vec<u32>,
+    /// Length of a unit of the boxes.
+    unit: f64,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    aabb: Aabb,
-    /// First box of a leaf, second child of an inner node; the first child is the next node.
-    link: u32,
-    /// Boxes in a leaf; zero for inner nodes.
+/// Up to eight boxes with sides parallel to common axes.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    centre: DVec3,
+    /// Orthogonal; their lengths are one in units of the boxes.
+    axes: [DVec3; 3],
+    /// Lowest and highest coordinates along the axes, rounded outward.
+    low: [[f32; WIDTH]; 3],
+    high: [[f32; WIDTH]; 3],
+    /// The first child, the others follow: items, marked, or nodes.
+    first: u32,
     count: u32,
 }
 
 impl Tree {
-    pub(super) fn new(boxes: &[Aabb]) -> Self {
-        let mut order: Vec<u32> = (0..boxes.len()).map(number).collect();
-        let mut nodes = Vec::with_capacity(2 * boxes.len());
-        build(boxes, &mut order, 0, &mut nodes);
-        Self { nodes, order }
+    /// Sorts the items.
+    pub(super) fn new(items: &mut [Flat]) -> Self {
+        let points = || items.iter().flat_map(|item| item.corners);
+        let (low, high) = points()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+                (low.min(p), high.max(p))
+            });
+        let size = (high - low).max_element();
+        let unit = if size > 0.0 { size } else { 1.0 };
+        let mut tree = Self { nodes: vec![Node::EMPTY], unit };
+        tree.fill(0, 0, items);
+        tree
     }
 
-    pub(super) fn aabb(&self) -> Aabb {
-        self.nodes[0].aabb
+    /// Makes this node one over these items; `first` is where they are among all.
+    fn fill(&mut self, at: usize, first: usize, items: &mut [Flat]) {
+        let mut part = 1;
+        while part * WIDTH < items.len() {
+            part *= WIDTH;
+        }
+        sort_into_parts(items, part);
+        let scale = 1.0 / self.unit;
+        let mut node = Node::oriented(items, scale);
+        for (k, items) in items.chunks(part).enumerate() {
+            node.set_box(k, items, scale);
+        }
+        node.count = number(items.len().div_ceil(part));
+        if part == 1 {
+            node.first = number(first) | ITEM;
+            self.nodes[at] = node;
+            return;
+        }
+        let child = self.nodes.len();
+        node.first = number(child);
+        self.nodes.resize(child + node.count as usize, Node::EMPTY);
+        self.nodes[at] = node;
+        for (k, items) in items.chunks_mut(part).enumerate() {
+            self.fill(child + k, first + k * part, items);
+        }
     }
 
-    /// Visits the boxes whose key is not above a limit, roughly in ascending order. `key` is `None` for
-    /// boxes without interest and not larger for a box than for those inside it; `visit` takes the
-    /// number of a box and returns the new limit.
-    pub(super) fn visit(
+    /// Visits the items whose box is not farther from `p` than a limit, roughly the nearest first;
+    /// `visit` takes the number of an item and returns the new limit.
+    pub(super) fn visit_near(&self, p: DVec3, limit: f64, mut visit: impl FnMut(usize) -> f64) {
+        let keys = |node: &Node, _| node.squared_distances(p);
+        let squared = |limit: f64| (limit / self.unit) * (limit / self.unit);
+        self.visit(limit, keys, squared, &mut visit);
+    }
+
+    /// Visits the items whose box a ray meets before a limit of its parameter, roughly the first ones
+    /// first. `slack` is the round-off of positions.
+    pub(super) fn visit_along(&self, ray: &Ray, slack: f64, mut visit: impl FnMut(usize) -> f64) {
+        let slack = slack / self.unit;
+        let keys = |node: &Node, limit: f64| node.entries(ray, slack, limit);
+        self.visit(f64::INFINITY, keys, |limit| limit, &mut visit);
+    }
+
+    /// `keys` are those of the children of a node, to be compared with `scaled(limit)`; NaN for a child
+    /// without interest.
+    fn visit(
         &self,
         mut limit: f64,
-        key: impl Fn(&Aabb, f64) -> Option<f64>,
-        mut visit: impl FnMut(usize) -> f64,
+        keys: impl Fn(&Node, f64) -> [f64; WIDTH],
+        scaled: impl Fn(f64) -> f64,
+        visit: &mut impl FnMut(usize) -> f64,
     ) {
-        let mut open: Vec<(f64, usize)> = Vec::with_capacity(64);
-        open.extend(key(&self.nodes[0].aabb, limit).map(|k| (k, 0)));
-        while let Some((k, at)) = open.pop() {
-            if k > limit {
+        let mut open: Vec<(f64, u32)> = Vec::with_capacity(64);
+        open.push((0.0, 0));
+        while let Some((key, at)) = open.pop() {
+            if key > scaled(limit) {
                 continue;
             }
-            let node = &self.nodes[at];
-            if node.count > 0 {
-                let first = node.link as usize;
-                for &item in &self.order[first..first + node.count as usize] {
-                    limit = visit(item as usize);
-                }
+            if at & ITEM != 0 {
+                limit = visit((at & !ITEM) as usize);
                 continue;
             }
-            let [a, b] = [at + 1, node.link as usize]
-                .map(|child| (key(&self.nodes[child].aabb, limit), child));
-            let (near, far) = if a.0 <= b.0 { (a, b) } else { (b, a) };
-            open.extend([far, near].into_iter().filter_map(|(k, child)| Some((k?, child))));
+            let node = &self.nodes[at as usize];
+            let (all, start, most) = (keys(node, limit), open.len(), scaled(limit));
+            let children = (node.first..).zip(&all[..node.count as usize]);
+            open.extend(children.filter(|(_, key)| **key <= most).map(|(at, key)| (*key, at)));
+            // the nearest one last, to be taken first
+            open[start..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
         }
     }
 }
 
-fn number(index: usize) -> u32 {
-    u32::try_from(index).expect("invariant: face counts fit 31 bits")
+impl Node {
+    const EMPTY: Self = Self {
+        centre: DVec3::ZERO,
+        axes: [DVec3::ZERO; 3],
+        low: [[0.0; WIDTH]; 3],
+        high: [[0.0; WIDTH]; 3],
+        first: 0,
+        count: 0,
+    };
+
+    /// Without children yet; one axis is the mean normal of the items: boxes of smooth pieces are flat.
+    fn oriented(items: &[Flat], scale: f64) -> Self {
+        let normal: DVec3 = items.iter().map(Flat::area_normal).sum();
+        let normal = normal.try_normalize().unwrap_or(DVec3::Z);
+        let (x, y) = normal.any_orthonormal_pair();
+        let centre = items.iter().map(Flat::centre).sum::<DVec3>() / items.len() as f64;
+        Self { centre, axes: [normal, x, y].map(|axis| axis * scale), ..Self::EMPTY }
+    }
+
+    /// Components along the axes.
+    #[inline]
+    fn along(&self, v: DVec3) -> [f64; 3] {
+        let [a, b, c] = self.axes;
+        [a.dot(v), b.dot(v), c.dot(v)]
+    }
+
+    /// Puts a box around these items.
+    fn set_box(&mut self, k: usize, items: &[Flat], scale: f64) {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for item in items {
+            let bulge = item.bounds.bulge * scale;
+            for p in item.corners {
+                let at = self.along(p - self.centre);
+                for axis in 0..3 {
+                    low[axis] = low[axis].min(at[axis] - bulge);
+                    high[axis] = high[axis].max(at[axis] + bulge);
+                }
+            }
+        }
+        for axis in 0..3 {
+            self.low[axis][k] = single(low[axis]).next_down();
+            self.high[axis][k] = single(high[axis]).next_up();
+        }
+    }
+
+    /// Squared distances of the boxes from `p`, in units of the boxes.
+    fn squared_distances(&self, p: DVec3) -> [f64; WIDTH] {
+        let at = self.along(p - self.centre);
+        let mut squares = [0.0; WIDTH];
+        for ((low, high), at) in self.low.iter().zip(&self.high).zip(at) {
+            for k in 0..WIDTH {
+                let out = (f64::from(low[k]) - at).max(at - f64::from(high[k])).max(0.0);
+                squares[k] += out * out;
+            }
+        }
+        squares
+    }
+
+    /// Parameters at which a ray enters the boxes; NaN for those it does not enter before `limit`.
+    fn entries(&self, ray: &Ray, slack: f64, limit: f64) -> [f64; WIDTH] {
+        let origin = self.along(ray.origin - self.centre);
+        let direction = self.along(ray.direction);
+        let (mut first, mut last) = ([0.0_f64; WIDTH], [limit; WIDTH]);
+        for axis in 0..3 {
+            let (o, d) = (origin[axis], direction[axis]);
+            for k in 0..WIDTH {
+                let low = f64::from(self.low[axis][k]) - slack - o;
+                let high = f64::from(self.high[axis][k]) + slack - o;
+                if d == 0.0 {
+                    if low > 0.0 || high < 0.0 {
+                        last[k] = f64::NEG_INFINITY;
+                    }
+                } else {
+                    let (a, b) = (low / d, high / d);
+                    first[k] = first[k].max(a.min(b));
+                    last[k] = last[k].min(a.max(b));
+                }
+            }
+        }
+        for k in 0..WIDTH {
+            // two roundings each
+            let rounded = 4.0 * f64::EPSILON * first[k].abs().max(last[k].abs());
+            if first[k] > last[k] + rounded {
+                first[k] = f64::NAN;
+            }
+        }
+        first
+    }
 }
 
-/// Appends the nodes for these boxes; `first` is where they are in the whole order.
-fn build(boxes: &[Aabb], order: &mut [u32], first: usize, nodes: &mut Vec<Node>) {
-    let mut items = order.iter().map(|&i| boxes[i as usize]);
-    let start = items.next().expect("invariant: a mesh has faces");
-    let aabb = items.fold(start, |all, next| all.with(&next));
-    let at = nodes.len();
-    if order.len() <= LEAF {
-        nodes.push(Node { aabb, link: number(first), count: number(order.len()) });
+/// Sorts items so that runs of `part` of them lie together in space.
+fn sort_into_parts(items: &mut [Flat], part: usize) {
+    if items.len() <= part {
         return;
     }
-    nodes.push(Node { aabb, link: 0, count: 0 });
-    let centre = |i: u32| boxes[i as usize].low + boxes[i as usize].high;
-    let spread = Aabb::around(order.iter().map(|&i| centre(i)));
-    let extent = spread.high - spread.low;
-    let axis = if extent.x >= extent.y && extent.x >= extent.z {
-        0
-    } else if extent.y >= extent.z {
-        1
-    } else {
-        2
-    };
-    let half = order.len() / 2;
-    order.select_nth_unstable_by(half, |&i, &j| {
-        centre(i)[axis].total_cmp(&centre(j)[axis]).then(i.cmp(&j))
+    let (low, high) = items
+        .iter()
+        .map(Flat::centre)
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, p| (all.0.min(p), all.1.max(p)));
+    let axis = (high - low).max_position();
+    let half = items.len().div_ceil(part) / 2 * part;
+    items.select_nth_unstable_by(half, |a, b| {
+        a.centre()[axis].total_cmp(&b.centre()[axis]).then(a.order().cmp(&b.order()))
     });
-    let (left, right) = order.split_at_mut(half);
-    build(boxes, left, first, nodes);
-    nodes[at].link = number(nodes.len());
-    build(boxes, right, first + half, nodes);
+    let (left, right) = items.split_at_mut(half);
+    sort_into_parts(left, part);
+    sort_into_parts(right, part);
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "rounding is what is wanted")]
+fn single(x: f64) -> f32 {
+    x as f32
+}
+
+fn number(index: usize) -> u32 {
+    u32::try_from(index).expect("invariant: face counts fit 31 bits")
 }

@@ -6,6 +6,8 @@
     reason = "each test file uses a part; helpers fail like tests"
 )]
 
+pub mod queries;
+
 use nagata::basemesh::VertexId;
 use nagata::bezier_core::Barycentric;
 use nagata::glam::DVec3;

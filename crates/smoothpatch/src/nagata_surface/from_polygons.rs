@@ -3,7 +3,9 @@
 use basemesh::glam::DVec3;
 use implicit::ImplicitField;
 use io::Polygons;
-use nagata::{CornerNormals, MeshError, NagataSurface, NormalsError, PolygonMesh, SurfaceError};
+use nagata::{
+    Apex, CornerNormals, MeshError, NagataSurface, NormalsError, PolygonMesh, SurfaceError, apexes,
+};
 use thiserror::Error;
 
 /// Where the normals come from.
@@ -30,6 +32,15 @@ impl std::fmt::Debug for NormalSource<'_> {
             Self::Field(_) => f.write_str("Field"),
         }
     }
+}
+
+/// Other normals at the sharp tips of a mesh, such as the apexes of cones.
+#[derive(Clone, Copy, Debug)]
+pub struct Tips {
+    /// Tips are the vertices from whose mean normal all faces turn by more than this. Unit: radians.
+    pub angle: f64,
+    /// What they get.
+    pub normals: Apex,
 }
 
 /// Why there is no surface. Faces, vertices and normals count from 0 in file order.
@@ -66,13 +77,38 @@ pub fn from_polygons(
     source: NormalSource<'_>,
     settings: nagata::Settings,
 ) -> Result<NagataSurface, NagataError> {
+    let (mesh, normals) = mesh_and_normals(polygons, source)?;
+    Ok(NagataSurface::new(mesh, normals, settings)?)
+}
+
+/// The same with other normals at tips, and how many there are.
+///
+/// # Errors
+///
+/// As for [`from_polygons`].
+pub fn from_polygons_with_tips(
+    polygons: &Polygons,
+    source: NormalSource<'_>,
+    tips: Tips,
+    settings: nagata::Settings,
+) -> Result<(NagataSurface, usize), NagataError> {
+    let (mesh, normals) = mesh_and_normals(polygons, source)?;
+    let found = apexes(&mesh, tips.angle);
+    let normals = normals.with_apexes(&mesh, &found, tips.normals);
+    Ok((NagataSurface::new(mesh, normals, settings)?, found.len()))
+}
+
+fn mesh_and_normals(
+    polygons: &Polygons,
+    source: NormalSource<'_>,
+) -> Result<(PolygonMesh, CornerNormals), NagataError> {
     let mesh = PolygonMesh::new(polygons.positions.clone(), &polygons.faces)?;
     let normals = match source {
         NormalSource::File => file_normals(&mesh, polygons)?,
         NormalSource::Estimate { crease_angle } => CornerNormals::estimated(&mesh, crease_angle),
         NormalSource::Field(field) => field_normals(&mesh, field)?,
     };
-    Ok(NagataSurface::new(mesh, normals, settings)?)
+    Ok((mesh, normals))
 }
 
 fn file_normals(mesh: &PolygonMesh, polygons: &Polygons) -> Result<CornerNormals, NagataError> {
