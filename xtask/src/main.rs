@@ -3,6 +3,7 @@
 
 mod check;
 mod fixtures;
+mod interop;
 mod schemes;
 mod study;
 mod table;
@@ -26,6 +27,8 @@ struct Arguments {
 enum Command {
     /// Fits every scene in both methods, measures, and compares with bounds and golden numbers.
     Verify(verify::Options),
+    /// Writes samples of every scheme and format and lets other programs judge them.
+    Interop(interop::Options),
     /// Checks tables of formulas, links in documents and the list of fixtures.
     Tidy,
     /// Writes the fixtures that are generated.
@@ -36,6 +39,7 @@ enum Command {
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Verify(options) => verify::run(&options),
+        Command::Interop(options) => interop::run(&options),
         Command::Tidy => tidy::run(),
         Command::Fixtures => fixtures::run().map(|()| true),
     };
