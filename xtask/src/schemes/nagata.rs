@@ -179,6 +179,9 @@ fn saddle(scheme: &Scheme) -> Result<Measured> {
             ]);
         }
         _ => {
+            // where a normal is reversed, an edge of the patch or the patch must say so
+            let unsaid = errors::reversed_without_report(&surface, &MONKEY, 8);
+            measured.checks.push(Check::exactly("bad patches in silence", unsaid as i64, 0));
             measured.checks.push(Check::at_least(
                 "edges that say why",
                 report.failures as f64,

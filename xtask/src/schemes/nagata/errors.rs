@@ -1,6 +1,6 @@
 //! How far patches are from a known surface.
 
-use smoothpatch::bezier_core::Barycentric;
+use smoothpatch::bezier_core::{Barycentric, LocalEdge};
 use smoothpatch::nagata::glam::DVec3;
 use smoothpatch::nagata::{NagataSurface, Patch};
 use testkit::polygons::KnownSurface;
@@ -50,6 +50,36 @@ pub(super) fn errors(
         }
     }
     worst
+}
+
+/// Number of patches with a reversed normal that are not reported as folded and none of whose edges
+/// says that the construction failed there.
+pub(super) fn reversed_without_report(
+    surface: &NagataSurface,
+    truth: &KnownSurface,
+    divisions: usize,
+) -> usize {
+    let mesh = surface.mesh();
+    let silent = mesh.faces().filter(|face| {
+        let patch = surface.patch(*face);
+        let reversed = samples(&patch, divisions)
+            .into_iter()
+            .any(|(point, normal)| normal.is_some_and(|n| n.dot((truth.normal)(point)) < 0.0));
+        reversed
+            && !surface.patch_report(*face).folded
+            && !fails_at_an_edge(&patch)
+            && !mesh.sides(*face).any(|side| surface.join(mesh.edge(side)).is_failure())
+    });
+    silent.count()
+}
+
+/// Also at edges of one patch only, which join nothing.
+fn fails_at_an_edge(patch: &Patch) -> bool {
+    let Patch::TangentPlane(patch) = patch else { return false };
+    LocalEdge::ALL.into_iter().any(|edge| {
+        let status = patch.correction_status(edge);
+        status.inflection || status.rejected
+    })
 }
 
 /// The larger one; not a number if one of them is none, which `max` would lose.
