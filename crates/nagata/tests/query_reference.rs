@@ -1,5 +1,5 @@
 //! Closest points and rays against dense sampling, refined by bisection.
-#![allow(clippy::unwrap_used, reason = "tests")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "tests; figures for the record")]
 
 mod common;
 

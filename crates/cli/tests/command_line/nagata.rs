@@ -241,17 +241,19 @@ fn tips_become_cones() {
     let place = Workplace::new();
     place.write("cone.obj", cone(12));
     let worst = |options: &str| {
-        let table = place.succeed(&format!("nagata cone.obj -o out.obj {options}"));
+        // with exact cones a warning tells that patches are singular at the tip
+        let run = place.run(&format!("nagata cone.obj -o out.obj {options}"));
+        assert_eq!(run.code, 0, "{options}: {}", run.stderr);
         let mesh = read_polygons_file(place.path("out.obj"), LargeFaces::Refuse).unwrap();
         let off = |p: &DVec3| (p.truncate().length() + p.z - 1.0).abs();
-        (table, mesh.positions.iter().map(off).fold(0.0, f64::max))
+        (run.stdout, mesh.positions.iter().map(off).fold(0.0, f64::max))
     };
     let (_, plain) = worst("");
-    for (name, bound) in [("none", 0.02), ("faces", 2e-3), ("axis", 2e-3)] {
+    for (name, bound) in [("none", 0.02), ("faces", 1e-4), ("axis", 1e-4)] {
         let (table, off) = worst(&format!("--apex {name}"));
         has_rows(&table, &["tips 1"]);
         assert!(off < bound, "{name}: {off}");
-        assert!(off <= plain, "{name}: {off}, without: {plain}");
+        assert!(off < 0.1 * plain, "{name}: {off}, without: {plain}");
     }
     let (table, _) = worst("--apex none --apex-angle 80");
     has_rows(&table, &["tips 0"]);
