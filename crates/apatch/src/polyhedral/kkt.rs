@@ -13,6 +13,11 @@ pub(crate) struct Kkt<'a> {
     factors: QDLDLFactorisation<f64>,
 }
 
+/// The largest of the absolute values; infinite if one is not a number.
+pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |m: f64, v| if v.is_nan() { f64::INFINITY } else { m.max(v.abs()) })
+}
+
 /// Added to the diagonals.
 const SHIFT: f64 = 1e-9;
 const MAX_STEPS: usize = 60;
@@ -57,13 +62,13 @@ impl<'a> Kkt<'a> {
         let mut stalled = 0;
         for _ in 0..MAX_STEPS {
             let mut residual = self.residual(&solution, &right);
-            let size = residual.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+            let size = largest(residual.iter().copied());
             let better = best.as_ref().is_none_or(|(known, _)| size < 0.5 * known);
             stalled = if better { 0 } else { stalled + 1 };
             if best.as_ref().is_none_or(|(known, _)| size < *known) {
                 best = Some((size, solution.clone()));
             }
-            if size == 0.0 || stalled > 3 {
+            if size == 0.0 || size.is_infinite() || stalled > 3 {
                 break;
             }
             self.factors.solve(&mut residual);

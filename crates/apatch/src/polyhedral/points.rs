@@ -79,6 +79,9 @@ impl PolyhedralSurface {
         let ray = self.ray(cell, foot, top);
         let used = &ray[..=self.degree];
         let largest = used.iter().fold(0.0_f64, |m, b| m.max(b.abs()));
+        if used.iter().any(|b| b.is_nan()) {
+            return Meets::Wrongly;
+        }
         let noise = 64.0 * f64::EPSILON * largest;
         let clean = ray.map(|b| if b.abs() <= noise { 0.0 } else { b });
         if clean[0] > 0.0 {

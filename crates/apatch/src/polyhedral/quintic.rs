@@ -12,7 +12,7 @@ use super::conditions::{Row, conditions};
 use super::dofs::{COUNT, Dofs};
 use super::energy::energy;
 use super::hull::Hull;
-use super::kkt::Kkt;
+use super::kkt::{Kkt, largest};
 use super::report::{FairnessReport, Report};
 use super::settings::FairnessSettings;
 use super::signs::{ray_cuts, sign_conditions};
@@ -187,7 +187,7 @@ impl Problem {
         x.iter().all(|x| x.is_finite()).then_some((x, accurate))
     }
 
-    /// Largest violation of a condition.
+    /// Largest violation of a condition; infinite if a weight is not a number.
     fn residual(&self, dofs: &Dofs, weights: &[f64]) -> f64 {
         let mut x = vec![0.0; self.scale.len()];
         for (&dof, &w) in dofs.of_cell.iter().flatten().zip(weights) {
@@ -195,7 +195,7 @@ impl Problem {
                 x[dofs.unknown[dof]] = w;
             }
         }
-        self.plain.iter().map(|row| row.excess(&x).abs()).fold(0.0, f64::max)
+        largest(self.plain.iter().map(|row| row.excess(&x)))
     }
 }
 

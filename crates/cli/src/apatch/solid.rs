@@ -146,23 +146,29 @@ fn write(
                 let grid = curvature_grid(surface, sampled);
                 write_file(path, |out| Ok(write_grid(out, &grid, Encoding::default())?))?
             }
-            Format::Triangles(format) => {
-                let triangles = CreasedTessellation::from(mesh_of(sampled));
-                write_file(path, |out| {
-                    match format {
-                        TriangleFormat::Obj => write_obj_creased(out, &triangles)?,
-                        TriangleFormat::Ply => write_ply(out, &triangles)?,
-                        TriangleFormat::Stl => write_stl(out, &triangles)?,
-                        TriangleFormat::Glb => write_glb(out, &triangles)?,
-                    }
-                    Ok(())
-                })?
-            }
+            Format::Triangles(format) => write_triangles(path, *format, &mesh_of(sampled).into())?,
             // refused before
             Format::Step | Format::Msh => continue,
         });
     }
     Ok(written)
+}
+
+/// Writes flat triangles that lie on the surface with their corners.
+pub(crate) fn write_triangles(
+    path: &Path,
+    format: TriangleFormat,
+    triangles: &CreasedTessellation,
+) -> anyhow::Result<Written> {
+    write_file(path, |out| {
+        match format {
+            TriangleFormat::Obj => write_obj_creased(out, triangles)?,
+            TriangleFormat::Ply => write_ply(out, triangles)?,
+            TriangleFormat::Stl => write_stl(out, triangles)?,
+            TriangleFormat::Glb => write_glb(out, triangles)?,
+        }
+        Ok(())
+    })
 }
 
 /// What was asked for, what was done and measured, and what was written.
