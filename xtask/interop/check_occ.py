@@ -16,12 +16,17 @@ from OCP.collections import (
 from OCP.gp import gp_Pnt, gp_Vec
 from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_RetDone
+from OCP.Message import Message
 from OCP.STEPControl import STEPControl_AsIs, STEPControl_Reader, STEPControl_Writer
 from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
 from OCP.TopExp import TopExp, TopExp_Explorer
 from OCP.TopoDS import TopoDS
 
 from report import Checks
+
+# its own messages would stand between ours
+for printer in list(Message.DefaultMessenger_s().Printers()):
+    Message.DefaultMessenger_s().RemovePrinter(printer)
 
 checks = Checks()
 as_edge = getattr(TopoDS, "Edge_s", None) or TopoDS.Edge

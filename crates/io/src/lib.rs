@@ -42,7 +42,10 @@ pub use patch_surface::{PatchNet, PatchSurface, PatchSurfaceError};
 pub use polygon::Polygon;
 pub use samples::{CreasedTessellation, FacePoint, Samples};
 pub use scene::{Bounds, Method, Region, Scene, SceneError, SceneSurface};
-pub use step::{LengthUnit, StepCounts, StepError, StepFaces, StepOptions, StepSchema, write_step};
+pub use step::{
+    LengthUnit, StepCounts, StepError, StepFaces, StepOptions, StepSchema, StepSize, step_size,
+    write_step,
+};
 pub use tessellate::{Tessellation, tessellate, tessellation_gap};
 pub use triangles::{TrianglesError, write_glb, write_ply, write_stl};
 pub use vtu::{

@@ -11,7 +11,7 @@ mod common;
 use std::collections::{HashMap, HashSet};
 
 use common::{OCTAHEDRON_CORNERS, Random, bulged, nets_from, octahedron, strip, torus};
-use io::basemesh::{FaceMap, Topology};
+use io::basemesh::{FaceMap, Topology, VertexId};
 use io::bezier_core::BezierTriangle;
 use io::glam::DVec3;
 use io::{
@@ -176,7 +176,7 @@ fn octahedra(sizes: &[f64]) -> PatchSurface {
     let topology = octahedron();
     let nets: FaceMap<BezierTriangle<DVec3, 3>> = bulged(&topology, &OCTAHEDRON_CORNERS, |p| p);
     let corners: Vec<_> =
-        topology.faces().map(|f| topology.corners(f).map(|v| v.index())).collect();
+        topology.faces().map(|f| topology.corners(f).map(VertexId::index)).collect();
     let (mut faces, mut points) = (Vec::new(), Vec::new());
     for (copy, &size) in sizes.iter().enumerate() {
         for (face, patch) in nets.iter() {

@@ -6,8 +6,10 @@ use glam::DVec3;
 use crate::surface::Patch;
 use crate::triangle::NagataTriangle;
 
-/// Divisions of the lattice of points that are looked at.
+/// Divisions of the lattice of points that are looked at: more where corrections may change the normal
+/// within a small part of the patch.
 const DIVISIONS: usize = 4;
+const CORRECTED_DIVISIONS: usize = 8;
 
 impl Patch {
     /// Whether the normal points away from `flat` somewhere, as far as is looked at.
@@ -17,11 +19,13 @@ impl Patch {
         {
             return false;
         }
+        let divisions =
+            if matches!(self, Self::TangentPlane(_)) { CORRECTED_DIVISIONS } else { DIVISIONS };
         let quad = matches!(self, Self::Quad(_));
-        let step = |k: usize| k as f64 / DIVISIONS as f64;
-        let last = |i: usize| if quad { DIVISIONS } else { DIVISIONS - i };
+        let step = |k: usize| k as f64 / divisions as f64;
+        let last = |i: usize| if quad { divisions } else { divisions - i };
         let mut lattice =
-            (0..=DIVISIONS).flat_map(|i| (0..=last(i)).map(move |j| [step(i), step(j)]));
+            (0..=divisions).flat_map(|i| (0..=last(i)).map(move |j| [step(i), step(j)]));
         lattice.any(|at| self.normal(at).is_some_and(|normal| normal.dot(flat) < 0.0))
     }
 }

@@ -30,7 +30,7 @@ pub struct PatchReport {
     pub misfit: f64,
     /// Whether the patch folds over: its normal points to the other side than that of the flat face. For
     /// C0 triangles, `false` is certain where a bound shows it; otherwise it is looked at in 15 points
-    /// (25 for quadrilaterals), the corners and middles of the sides among them.
+    /// (25 for quadrilaterals, 45 for G1 patches), the corners and middles of the sides among them.
     pub folded: bool,
     /// Number of corners at which the patch has no normal.
     pub singular_corners: u8,

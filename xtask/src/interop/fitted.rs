@@ -104,8 +104,8 @@ fn hollow_and_double(samples: &mut Samples) -> Result<()> {
     facts["shells"] = json!(2);
     samples.step("hollow.step", &hollow.step_surface()?, &StepOptions::default(), facts)?;
     let double =
-        fitted(r#"(version: 1, name: "double", surface: Shape("double-torus"), faces: 300)"#)?;
-    let facts = json!({ "smooth": true, "tetrahedra": true, "mesh_size": 0.05 });
+        fitted(r#"(version: 1, name: "double", surface: Shape("double-torus"), faces: 200)"#)?;
+    let facts = json!({ "smooth": true, "tetrahedra": true, "mesh_size": 0.031 });
     samples.step("double-torus.step", &double.step_surface()?, &StepOptions::default(), facts)
 }
 

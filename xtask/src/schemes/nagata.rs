@@ -180,7 +180,7 @@ fn saddle(scheme: &Scheme) -> Result<Measured> {
         }
         _ => {
             // where a normal is reversed, an edge of the patch or the patch must say so
-            let unsaid = errors::reversed_without_report(&surface, &MONKEY, 8);
+            let unsaid = errors::reversed_without_report(&surface, &MONKEY, 12);
             measured.checks.push(Check::exactly("bad patches in silence", unsaid as i64, 0));
             measured.checks.push(Check::at_least(
                 "edges that say why",

@@ -24,6 +24,7 @@ pub(crate) struct Outputs<'a> {
     files: OutputFiles,
     formats: &'a FormatOptions,
     cells: CellKind,
+    quiet: bool,
     divisions: usize,
 }
 
@@ -33,7 +34,7 @@ impl<'a> Outputs<'a> {
         let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?;
         let (cells, divisions) = (arguments.cells.into(), arguments.divisions);
         let formats = &arguments.formats;
-        Ok(Self { files, formats, cells, divisions })
+        Ok(Self { files, formats, cells, quiet: arguments.quiet, divisions })
     }
 
     /// Checks that every file can be written.
@@ -64,7 +65,7 @@ impl<'a> Outputs<'a> {
                 Format::Vtu => write_file(path, |out| Ok(write_vtu(out, topology, nets, &vtu)?))?,
                 Format::Step => {
                     let patches = PatchSurface::from_triangles(topology, nets)?;
-                    formats::step(path, &patches, self.formats)?
+                    formats::step(path, &patches, self.formats, self.quiet)?
                 }
                 Format::Msh => self.msh(path, topology, nets)?,
                 Format::Triangles(format) => self.triangles(path, *format, surface)?,

@@ -37,7 +37,7 @@ pub(crate) fn write(
                     write_file(path, |out| Ok(write_grid(out, &grid, Encoding::default())?))?;
                 Written { approximation, ..file }
             }
-            Format::Step => formats::step(path, &exact(surface, path)?, formats)?,
+            Format::Step => formats::step(path, &exact(surface, path)?, formats, arguments.quiet)?,
             Format::Msh => {
                 let order = formats.order.unwrap_or(2);
                 let (mesh, gap) = curved_mesh(surface, order);

@@ -180,7 +180,7 @@ fn outputs() {
     let place = place();
     let sphere = ["fit", "--shape", "sphere", "--faces", "20", "-o"];
     for (outputs, fragment) in [
-        (&["new.stl"][..], "must end with .vtu (patches) or .obj"),
+        (&["new.iges"][..], "must end with .vtu, .step or .msh (patches), or with .obj"),
         (&["new"], "must end with"),
         (&["new.vtu", "--report", "new.txt"], "must end with .json"),
         (&["none/new.vtu"], "there is no directory none"),

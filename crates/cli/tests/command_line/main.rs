@@ -5,6 +5,7 @@ mod apatch;
 mod bad_input;
 mod check;
 mod fit;
+mod formats;
 mod help;
 mod nagata;
 mod nagata_bad_input;

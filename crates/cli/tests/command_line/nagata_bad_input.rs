@@ -58,7 +58,7 @@ fn options() {
         (&["--crease-angle", "200", "-o", "a.vtu"], &["from 0 to 180"]),
         (&["--crease-angle", "-1", "-o", "a.vtu"], &["from 0 to 180"]),
         (&["--divisions", "0", "-o", "a.vtu"], &["1 to 256"]),
-        (&["-o", "a.stl"], &["must end with .vtu"]),
+        (&["-o", "a.iges"], &["must end with .vtu"]),
         (&["-o", "none/a.vtu"], &["there is no directory none"]),
         (&["-o", "./square.obj"], &["./square.obj is read"]),
         (&["-o", "a.vtu", "-o", "./a.vtu"], &["would be written twice"]),
