@@ -172,18 +172,26 @@ fn usable_samples(patch: &Patch, divisions: usize) -> PatchSamples {
     let mut samples: PatchSamples = match patch {
         Patch::Triangle(patch) => {
             let at = Barycentric::lattice(divisions);
-            at.map(|at| (patch.point(at), patch.area_normal(at))).collect()
+            at.map(|at| (patch.point(at), weighted(patch.normal(at), patch.area_normal(at))))
+                .collect()
         }
         Patch::TangentPlane(patch) => {
             let at = Barycentric::lattice(divisions);
-            at.map(|at| (patch.point(at), patch.area_normal(at))).collect()
+            at.map(|at| (patch.point(at), weighted(patch.normal(at), patch.area_normal(at))))
+                .collect()
         }
         Patch::Quad(patch) => {
             let rows = (0..=divisions).flat_map(|j| (0..=divisions).map(move |i| [i, j]));
             let at = rows.map(|steps| steps.map(|step| step as f64 / divisions as f64));
-            at.map(|at| (patch.point(at), patch.area_normal(at))).collect()
+            at.map(|at| (patch.point(at), weighted(patch.normal(at), patch.area_normal(at))))
+                .collect()
         }
     };
     samples.retain(|(_, normal)| *normal != DVec3::ZERO);
     samples
+}
+
+/// The normal with the length of the area normal, whose direction is round-off where a patch is singular.
+fn weighted(normal: Option<DVec3>, area_normal: DVec3) -> DVec3 {
+    normal.map_or(DVec3::ZERO, |normal| normal * area_normal.length())
 }
