@@ -66,7 +66,10 @@ fn what_is_refused() {
         ),
         ("apatch frame.off --scheme c1-cubic --cut 1.5 -o a.obj", "hull.alpha is 1.5"),
         ("apatch frame.off --scheme c2-quintic --tension 1 -o a.obj", "--tension"),
-        ("apatch frame.off --scheme c1-cubic -o a.step", "written as flat triangles"),
+        (
+            "apatch frame.off --scheme c1-cubic -o a.step",
+            "files of this kind hold polynomial patches",
+        ),
         ("apatch frame.off --cut 0.5 -o a.obj", "--cut and --weights are for solids"),
     ] {
         let arguments: Vec<&str> = options.split_whitespace().collect();
