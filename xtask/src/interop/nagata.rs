@@ -68,7 +68,8 @@ fn surface(
 ) -> Result<()> {
     let diagonal = surface.mesh().diagonal();
     let curved = curved_grid(surface, 4);
-    let types: Vec<u8> = curved.grid.cells.iter().map(|cell| cell.vtk_type()).collect();
+    let types: Vec<u8> =
+        curved.grid.cells.iter().map(smoothpatch::io::GridCell::vtk_type).collect();
     let facts = json!({
         "cells": curved.grid.cells.len(),
         "cell_types": types,
