@@ -169,14 +169,14 @@ fn impossible_tolerances_are_named() {
         let error = tessellate_within(&mesh, value, on_roof).unwrap_err();
         assert!(matches!(error, ChordError::Tolerance { .. }), "{error}");
     }
-    // waves much shorter than the shortest piece of an edge, zero at the vertices
+    // waves much shorter than the shortest piece; at the halves of edges they are zero
     let noise = |face, at| {
         let (mut point, normal) = on_roof(face, at);
         point.z += (1e9 * std::f64::consts::PI * point.x).sin();
         (point, normal)
     };
     let message = tessellate_within(&mesh, 1e-3, noise).unwrap_err().to_string();
-    assert!(message.starts_with("edge 0-1 is not within the chord tolerance of 1e-3"), "{message}");
+    assert!(message.starts_with("face 0 is not within the chord tolerance of 1e-3"), "{message}");
     let hole = |face, at| {
         let (point, normal) = on_roof(face, at);
         (if point.x > 2.4 { DVec3::NAN } else { point }, normal)
