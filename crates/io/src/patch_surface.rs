@@ -7,7 +7,6 @@ use basemesh::{FaceMap, Topology};
 use bezier_core::{BezierTriangle, MultiIndex};
 use glam::DVec3;
 
-use crate::lattice::bits;
 use crate::polygon::Polygon;
 
 pub use error::PatchSurfaceError;
@@ -176,7 +175,8 @@ impl PatchSurface {
         Err(PatchSurfaceError::NotFinite { face, point, position: self.nets[at] })
     }
 
-    /// Takes what is shared from the lowest face, and compares the others with it.
+    /// Takes what is shared from the lowest face, and compares the others with it: equal numbers, zeros of
+    /// either sign.
     fn gather(&mut self) -> Result<(), PatchSurfaceError> {
         let size = self.degree + 1;
         let mut curve_owner = vec![None; self.edges.len()];
@@ -188,7 +188,7 @@ impl PatchSurface {
                 let owner = *vertex_owner[vertex].get_or_insert(face);
                 if owner == face {
                     self.vertices[vertex] = row.start;
-                } else if bits(self.vertices[vertex]) != bits(row.start) {
+                } else if self.vertices[vertex] != row.start {
                     let positions = [self.vertices[vertex], row.start];
                     return Err(PatchSurfaceError::Vertex {
                         vertex,
@@ -201,8 +201,7 @@ impl PatchSurface {
                 let curve = &mut self.curves[edge * size..(edge + 1) * size];
                 if owner == face {
                     curve.copy_from_slice(&row.forward);
-                } else if let Some(step) =
-                    (0..size).find(|&step| bits(curve[step]) != bits(row.forward[step]))
+                } else if let Some(step) = (0..size).find(|&step| curve[step] != row.forward[step])
                 {
                     let positions = [curve[step], row.forward[step]];
                     let [lower, higher] = self.edges[edge];
