@@ -80,7 +80,10 @@ fn steps(samples: &mut Samples, sphere: &Fitted, torus: &Fitted) -> Result<()> {
     let mut facts = sphere.volume(4.0 * PI / 3.0, 4.0 * PI);
     facts["operations"] = json!(true);
     facts["box"] = json!([[0.013, -2.0, -2.0], [2.0, 2.0, 2.0]]);
+    facts["tetrahedra"] = json!(true);
+    facts["mesh_size"] = json!(0.06);
     samples.step("sphere.step", &surface, &StepOptions::default(), facts.clone())?;
+    facts["tetrahedra"] = json!(false);
     let degenerate = StepOptions { faces: StepFaces::Degenerate, ..StepOptions::default() };
     samples.step("sphere-degenerate.step", &surface, &degenerate, facts.clone())?;
     facts["operations"] = json!(false);
@@ -105,7 +108,7 @@ fn hollow_and_double(samples: &mut Samples) -> Result<()> {
     samples.step("hollow.step", &hollow.step_surface()?, &StepOptions::default(), facts)?;
     let double =
         fitted(r#"(version: 1, name: "double", surface: Shape("double-torus"), faces: 200)"#)?;
-    let facts = json!({ "smooth": true, "tetrahedra": true, "mesh_size": 0.031 });
+    let facts = json!({ "smooth": true });
     samples.step("double-torus.step", &double.step_surface()?, &StepOptions::default(), facts)
 }
 
