@@ -39,7 +39,8 @@ pub struct Simplified {
 
 /// Reduces a dense closed mesh near a smooth surface to `settings.faces` faces.
 ///
-/// 1. The vertices are smoothed along the surface, which removes the slivers of a marched mesh.
+/// 1. The vertices are smoothed along the surface, which removes the slivers of a marched mesh, as
+///    long as the normal does not come to turn too far along an edge.
 /// 2. Down to `plain_factor` times the number of faces, edges are collapsed by their mean quadric
 ///    error alone.
 /// 3. From there every collapse is projected onto the surface and tested: no sliver, no face that
@@ -111,7 +112,8 @@ fn decimate(
         return;
     }
     if surface.mesh.face_count() >= 2 * settings.faces {
-        relax::relax(surface, settings.relaxation_iterations);
+        let turning_cos = settings.improve_settings().guard().turning_cos;
+        relax::relax(surface, settings.relaxation_iterations, turning_cos);
     }
     let mut quadrics = merge::vertex_quadrics(&surface.mesh, settings.isotropy);
     let plain = settings.faces.saturating_mul(settings.plain_factor.max(1));
