@@ -22,7 +22,7 @@ use crate::improve::improve_surface;
 use crate::improve::surface_mesh::SurfaceMesh;
 use crate::maps::VertexMap;
 use crate::mesh::TriMesh;
-use crate::quality::{MeshQuality, invalid_fans};
+use crate::quality::{MeshQuality, angle_between, invalid_fans};
 use crate::target::SurfaceTarget;
 
 /// A base mesh made from a denser one.
@@ -39,8 +39,7 @@ pub struct Simplified {
 
 /// Reduces a dense closed mesh near a smooth surface to `settings.faces` faces.
 ///
-/// 1. The vertices are smoothed along the surface, which removes the slivers of a marched mesh, as
-///    long as the normal does not come to turn too far along an edge.
+/// 1. The vertices are smoothed along the surface, which removes the slivers of a marched mesh.
 /// 2. Down to `plain_factor` times the number of faces, edges are collapsed by their mean quadric
 ///    error alone.
 /// 3. From there every collapse is projected onto the surface and tested: no sliver, no face that
@@ -54,7 +53,8 @@ pub struct Simplified {
 ///
 /// The topology is never changed: every component survives with its genus. A mesh that has no more
 /// faces than asked for goes through steps 4 and 5 only. Step 1 is left out where the mesh is not
-/// dense, with fewer than twice the faces asked for. Results do not depend on the number of threads,
+/// dense: with fewer than twice the faces asked for, or where the normal turns along its edges by
+/// more than a quarter of `max_turning_deg` on average. Results do not depend on the number of threads,
 /// and scaling mesh and surface by a power of two scales the result bit for bit.
 ///
 /// See `docs/math/base-mesh.md`; quadrics as by Garland and Heckbert (1997).
@@ -111,9 +111,8 @@ fn decimate(
     if surface.mesh.face_count() <= settings.faces {
         return;
     }
-    if surface.mesh.face_count() >= 2 * settings.faces {
-        let turning_cos = settings.improve_settings().guard().turning_cos;
-        relax::relax(surface, settings.relaxation_iterations, turning_cos);
+    if surface.mesh.face_count() >= 2 * settings.faces && is_dense(surface, settings) {
+        relax::relax(surface, settings.relaxation_iterations);
     }
     let mut quadrics = merge::vertex_quadrics(&surface.mesh, settings.isotropy);
     let plain = settings.faces.saturating_mul(settings.plain_factor.max(1));
@@ -153,6 +152,19 @@ fn decimate(
     }
     report.stalled = true;
 }
+
+/// Whether smoothing without guards is harmless: on a coarse mesh, of a thin tube for instance,
+/// vertices would slip around the bend, and edges turn too far that did not before.
+fn is_dense(surface: &SurfaceMesh<'_>, settings: &SimplifySettings) -> bool {
+    let mesh = &surface.mesh;
+    let turning = |h| angle_between(surface.normal(mesh.origin(h)), surface.normal(mesh.target(h)));
+    let (sum, count) =
+        mesh.edges().map(turning).fold((0.0, 0), |(sum, count), angle| (sum + angle, count + 1));
+    sum <= f64::from(count) * DENSE * settings.max_turning_deg.to_radians()
+}
+
+/// Mean turning along the edges of a dense mesh, in parts of the largest allowed.
+const DENSE: f64 = 0.25;
 
 /// Improving the mesh and trying the same guards again is worth while if the last attempt removed
 /// one in so many of the faces too many.
