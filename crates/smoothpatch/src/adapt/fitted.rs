@@ -1,6 +1,8 @@
 //! A fit with what was measured.
 
-use basemesh::{FaceMap, RemeshSettings, TriMesh, VertexMap, remesh};
+use basemesh::{
+    FaceMap, RemeshSettings, SimplifyError, SimplifySettings, TriMesh, VertexMap, remesh, simplify,
+};
 
 use crate::error::FitError;
 use crate::measure::{FaceDeviation, settle};
@@ -42,6 +44,22 @@ impl Job<'_, '_, '_> {
         let remesh = || remesh(&fitted.surface.mesh, self.source, wishes, to);
         let mesh = self.clock.run(Stage::Simplify, fitted.faces(), remesh)?.mesh;
         self.fit(mesh)
+    }
+
+    /// The fit of the base mesh of another, simplified to `faces` faces; `None` if no mesh of its
+    /// topology has so few.
+    pub(super) fn fit_simplified(
+        &mut self,
+        fitted: &Fitted,
+        faces: usize,
+    ) -> Result<Option<Fitted>, FitError> {
+        let settings = SimplifySettings { faces, ..self.settings.base_mesh.simplify.clone() };
+        let mesh = fitted.surface.mesh.clone();
+        let simplify = || simplify(mesh, self.source, &settings);
+        match self.clock.run(Stage::Simplify, fitted.faces(), simplify) {
+            Err(SimplifyError::TooFewFaces { .. }) => Ok(None),
+            simplified => Ok(Some(self.fit(simplified?.mesh)?)),
+        }
     }
 
     /// Measures the worst patches more densely, until the largest values settle.
