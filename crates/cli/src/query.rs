@@ -23,6 +23,10 @@ use table::{Rows, read};
 /// The mesh is curved as by `smoothpatch nagata`. Both files are tables with three or six numbers a
 /// line, separated by commas, semicolons or spaces; a first line with names and lines that start with
 /// # are skipped.
+///
+/// The result is a table, too: `row` counts the lines of numbers from 0 and `face` the faces of the mesh
+/// from 0. `u` and `v` are the weights of the first two corners in a triangle, and run from the first
+/// corner to the second and to the last in a quadrilateral. For a ray without a hit they are empty.
 #[derive(Args)]
 #[command(
     group = ArgGroup::new("what").required(true),

@@ -8,7 +8,9 @@ use std::hint::black_box;
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use nagata::bezier_core::Barycentric;
 use nagata::glam::{DVec2, DVec3};
-use nagata::{CornerNormals, NagataSurface, Patch, PolygonMesh, Settings};
+use nagata::{
+    CornerNormals, G1Triangle, NagataSurface, NagataTriangle, Patch, PolygonMesh, Settings,
+};
 
 const AROUND: usize = 1000;
 const ACROSS: usize = 500;
@@ -44,7 +46,7 @@ fn build(c: &mut Criterion) {
     let bytes = c0.bytes() as f64 / TRIANGLES as f64;
     let mut group = c.benchmark_group(format!("build ({bytes:.1} bytes a C0 triangle)"));
     group.sample_size(10).throughput(Throughput::Elements(TRIANGLES));
-    group.bench_function("mesh and edges", |b| {
+    group.bench_function("mesh: checks and table of edges", |b| {
         b.iter_batched(
             || positions.clone(),
             |positions| PolygonMesh::new(positions, &faces).unwrap(),
@@ -52,9 +54,9 @@ fn build(c: &mut Criterion) {
         );
     });
     for (name, settings) in [
-        ("C0", Settings::position()),
-        ("G1 edges, robust", Settings::tangent_plane()),
-        ("G1 edges, published", Settings::published()),
+        ("C0 surface on a mesh", Settings::position()),
+        ("G1 surface on a mesh, robust", Settings::tangent_plane()),
+        ("G1 surface on a mesh, published", Settings::published()),
     ] {
         group.bench_function(name, |b| {
             b.iter_batched(
@@ -64,10 +66,18 @@ fn build(c: &mut Criterion) {
             );
         });
     }
+    group.bench_function("C0 surface, in the memory of the last one", |b| {
+        let mut surface = c0.clone();
+        b.iter_batched(
+            || normals.clone(),
+            |normals| surface.update(&positions, normals).unwrap(),
+            BatchSize::PerIteration,
+        );
+    });
     for (name, settings) in [
-        ("C0 patches", Settings::position()),
-        ("G1 patches, robust", Settings::tangent_plane()),
-        ("G1 patches, published", Settings::published()),
+        ("C0 patches of a surface", Settings::position()),
+        ("G1 patches of a surface, robust", Settings::tangent_plane()),
+        ("G1 patches of a surface, published", Settings::published()),
     ] {
         let surface = NagataSurface::new(mesh.clone(), normals.clone(), settings).unwrap();
         group.bench_function(name, |b| {
@@ -76,47 +86,87 @@ fn build(c: &mut Criterion) {
     }
 }
 
-fn evaluate(c: &mut Criterion) {
+/// Patches from three points and three normals each, nothing shared.
+fn unshared(c: &mut Criterion) {
     let (positions, normals, faces) = torus();
-    let mesh = PolygonMesh::new(positions, &faces).unwrap();
-    let normals = CornerNormals::per_vertex(&mesh, &normals).unwrap();
-    let lattice: Vec<Barycentric> = Barycentric::lattice(DIVISIONS).collect();
-    let mut points = vec![DVec3::ZERO; lattice.len()];
-    let mut group = c.benchmark_group("points");
-    let count = lattice.len() as u64 * 1000;
-    group.throughput(Throughput::Elements(count));
-    let patches = |settings| -> Vec<Patch> {
-        let surface = NagataSurface::new(mesh.clone(), normals.clone(), settings).unwrap();
-        surface.mesh().faces().take(1000).map(|face| surface.patch(face)).collect()
+    let settings = Settings::position().edges;
+    let input: Vec<_> =
+        faces.iter().map(|f| (f.map(|v| positions[v]), f.map(|v| normals[v]))).collect();
+    let patch = |(corners, normals): &([DVec3; 3], [DVec3; 3])| {
+        NagataTriangle::from_normals(*corners, *normals, &settings)
     };
-    let c0 = patches(Settings::position());
-    group.bench_function("C0, batch of 45 in cache", |b| {
+    let mut group = c.benchmark_group("C0 patches, nothing shared");
+    group.sample_size(10).throughput(Throughput::Elements(TRIANGLES));
+    let mut patches: Vec<NagataTriangle> = input.iter().map(patch).collect();
+    group.bench_function("built", |b| {
         b.iter(|| {
-            for patch in &c0 {
-                let Patch::Triangle(patch) = patch else { unreachable!("asked for C0") };
-                patch.sample(DIVISIONS, &mut points);
+            patches.clear();
+            patches.extend(input.iter().map(patch));
+            black_box(&patches);
+        });
+    });
+    let mut points = vec![DVec3::ZERO; 4 * 15];
+    group.bench_function("built, and 15 points each", |b| {
+        b.iter(|| {
+            for four in input.as_chunks::<4>().0 {
+                NagataTriangle::sample_all(&four.each_ref().map(patch), 4, &mut points);
                 black_box(&points);
             }
         });
     });
-    let mut all = vec![DVec3::ZERO; lattice.len() * c0.len()];
-    group.bench_function("C0, batches of 45 to memory", |b| {
+}
+
+fn evaluate(c: &mut Criterion) {
+    /// Patches of which the points are in the cache together.
+    const TOGETHER: usize = 8;
+    let surface = |settings| {
+        let (positions, normals, faces) = torus();
+        let mesh = PolygonMesh::new(positions, &faces[..1000]).unwrap();
+        let normals = CornerNormals::per_vertex(&mesh, &normals).unwrap();
+        NagataSurface::new(mesh, normals, settings).unwrap()
+    };
+    let lattice: Vec<Barycentric> = Barycentric::lattice(DIVISIONS).collect();
+    let c0: Vec<NagataTriangle> = patches(&surface(Settings::position()), |patch| match patch {
+        Patch::Triangle(patch) => Some(patch),
+        _ => None,
+    });
+    let mut points = vec![DVec3::ZERO; lattice.len() * TOGETHER];
+    let mut group = c.benchmark_group("points");
+    group.throughput(Throughput::Elements(lattice.len() as u64 * c0.len() as u64));
+    group.bench_function("written only, 45 a patch in cache", |b| {
         b.iter(|| {
-            for (patch, points) in c0.iter().zip(all.chunks_exact_mut(lattice.len())) {
-                let Patch::Triangle(patch) = patch else { unreachable!("asked for C0") };
-                patch.sample(DIVISIONS, points);
+            for patches in c0.chunks(TOGETHER) {
+                points[..lattice.len() * patches.len()].fill(patches[0].corners[0]);
+                black_box(&points);
             }
+        });
+    });
+    group.bench_function("C0, 45 a patch in cache", |b| {
+        b.iter(|| {
+            for patches in c0.chunks(TOGETHER) {
+                let points = &mut points[..lattice.len() * patches.len()];
+                NagataTriangle::sample_all(patches, DIVISIONS, points);
+                black_box(points);
+            }
+        });
+    });
+    let mut all = vec![DVec3::ZERO; lattice.len() * c0.len()];
+    group.bench_function("C0, 45 a patch to memory", |b| {
+        b.iter(|| {
+            NagataTriangle::sample_all(&c0, DIVISIONS, &mut all);
             black_box(&all);
         });
     });
     for (name, settings) in
         [("G1 published", Settings::published()), ("G1 robust", Settings::tangent_plane())]
     {
-        let g1 = patches(settings);
+        let g1: Vec<G1Triangle> = patches(&surface(settings), |patch| match patch {
+            Patch::TangentPlane(patch) => Some(patch),
+            _ => None,
+        });
         group.bench_function(format!("{name}, points one by one"), |b| {
             b.iter(|| {
                 for patch in &g1 {
-                    let Patch::TangentPlane(patch) = patch else { unreachable!("asked for G1") };
                     lattice.iter().for_each(|at| _ = black_box(patch.point(*at)));
                 }
             });
@@ -124,7 +174,6 @@ fn evaluate(c: &mut Criterion) {
         group.bench_function(format!("{name}, normals one by one"), |b| {
             b.iter(|| {
                 for patch in &g1 {
-                    let Patch::TangentPlane(patch) = patch else { unreachable!("asked for G1") };
                     lattice.iter().for_each(|at| _ = black_box(patch.normal(*at)));
                 }
             });
@@ -132,5 +181,9 @@ fn evaluate(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, build, evaluate);
+fn patches<P>(surface: &NagataSurface, kind: impl Fn(Patch) -> Option<P>) -> Vec<P> {
+    surface.mesh().faces().map(|face| kind(surface.patch(face)).unwrap()).collect()
+}
+
+criterion_group!(benches, build, unshared, evaluate);
 criterion_main!(benches);

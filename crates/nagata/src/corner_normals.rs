@@ -186,6 +186,11 @@ impl CornerNormals {
         ids
     }
 
+    /// The normal of each vertex, if all corners at it share it.
+    pub(crate) fn of_vertices(&self) -> Option<&[DVec3]> {
+        self.of_slot.is_none().then_some(&*self.normals)
+    }
+
     /// The two normals of an edge with exactly one at each end, which most edges have.
     #[inline]
     pub(crate) fn one_each(&self, mesh: &PolygonMesh, edge: EdgeId) -> Option<[DVec3; 2]> {

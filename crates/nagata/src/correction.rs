@@ -60,42 +60,47 @@ pub(crate) struct EdgeData {
 }
 
 impl Correction {
-    /// The correction of the edge opposite `corner` of a patch with these corner normals.
+    pub(crate) const NONE: Self = Self::Constant(DVec3::ZERO);
+
+    /// Becomes the correction of the edge opposite `corner` of a patch with these corner normals; it must be
+    /// none before. In place, because it is large.
     #[inline(always)]
-    pub(crate) fn new(
+    pub(crate) fn fill(
+        &mut self,
         base: &BasePatch,
         corner: Corner,
         corner_normals: &[Option<DVec3>; 3],
         planes: TangentPlanes,
         settings: &CorrectionSettings,
-    ) -> (Self, CorrectionStatus) {
+    ) -> CorrectionStatus {
         let [j, k] = ends_opposite(corner);
         let (start, end) = (corner_normals[j], corner_normals[k]);
         let singular_end = ends_opposite(corner)
             .into_iter()
             .any(|end| corner_normals[end].is_none() && !is_apex(base, Corner::ALL[end]));
-        let none = Self::Constant(DVec3::ZERO);
         let Some((start, end)) = start.or(end).zip(end.or(start)) else {
-            return (none, CorrectionStatus { singular_end, ..Default::default() });
+            return CorrectionStatus { singular_end, ..Default::default() };
         };
         let data = EdgeData::new(base, corner, [start, end], settings);
         let [c, d] = data.slopes;
         let inflection = !data.straight && c * d <= 0.0;
-        let (correction, rejected, rank) = match planes {
+        let (rejected, rank) = match planes {
             TangentPlanes::Published => {
                 let (gamma, rejected, rank) = published(&data, settings);
-                (Self::Constant(gamma), rejected, rank)
+                *self = Self::Constant(gamma);
+                (rejected, rank)
             }
             TangentPlanes::Robust => {
                 let turning = TurningNormal::new(&data);
-                if turning.longest() <= settings.max_length * data.chord.length() {
-                    (Self::Turning(turning), false, 2)
-                } else {
-                    (none, true, 0)
+                let limit = settings.max_length * settings.max_length;
+                let accepted = turning.is_within(limit * data.chord.length_squared());
+                if accepted {
+                    *self = Self::Turning(turning);
                 }
+                (!accepted, if accepted { 2 } else { 0 })
             }
         };
-        (correction, CorrectionStatus { inflection, rejected, singular_end, rank })
+        CorrectionStatus { inflection, rejected, singular_end, rank }
     }
 
     /// `Γ` at parameter `u` of its edge, with `K - 1` derivatives.
@@ -117,7 +122,7 @@ impl Correction {
 }
 
 impl EdgeData {
-    #[inline]
+    #[inline(always)]
     fn new(
         base: &BasePatch,
         corner: Corner,
@@ -138,14 +143,15 @@ impl EdgeData {
         let slopes = [normals[1].dot(t_start), -normals[0].dot(t_end)];
         // far from the origin the positions themselves are that uncertain
         let far = base.corners[j].abs().max(base.corners[k].abs()).max_element();
-        let noise = settings.straight * chord.length().max(far);
+        let steepest = slopes[0].abs().max(slopes[1].abs());
+        let is_noise = |size: f64| steepest * steepest <= settings.straight.powi(2) * size;
         Self {
             normals,
             chord,
             tangent: [t_start, chord + own.skew * 2.0, t_end],
             across,
             slopes,
-            straight: slopes[0].abs().max(slopes[1].abs()) <= noise,
+            straight: steepest <= settings.straight * far || is_noise(chord.length_squared()),
         }
     }
 }

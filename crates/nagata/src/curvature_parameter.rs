@@ -96,23 +96,89 @@ pub fn curvature_parameter(
 /// One normal at each end: `C` is a bow along `u = n_j + n_k` plus a shear along `v = n_k - n_j`.
 #[inline(always)]
 pub(crate) fn one_each(
-    d: DVec3,
-    [n_j, n_k]: [DVec3; 2],
+    chord: DVec3,
+    normals: [DVec3; 2],
     settings: &EdgeSettings,
 ) -> CurvatureParameter {
+    let direct = bow_and_shear(chord, normals, &Limits::new(settings));
+    if direct.accepted {
+        let status = EdgeStatus::quadratic(direct.full_rank);
+        return CurvatureParameter { value: direct.value, status };
+    }
+    one_each_lowered(chord, normals, settings)
+}
+
+/// What [`one_each`] finds without dropping terms for their length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Direct {
+    pub(crate) value: DVec3,
+    /// Whether both terms are determined; if not, this is the bow.
+    pub(crate) full_rank: bool,
+    /// Whether nothing has to be dropped.
+    pub(crate) accepted: bool,
+}
+
+/// The limits of [`EdgeSettings`], to be compared with squares.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    rank: f64,
+    curvature: f64,
+    shear: f64,
+    advance: f64,
+}
+
+impl Limits {
+    #[inline]
+    pub(crate) fn new(settings: &EdgeSettings) -> Self {
+        let or_none = |limit: Option<f64>| limit.unwrap_or(f64::INFINITY);
+        let squared = |limit: Option<f64>| or_none(limit) * or_none(limit);
+        Self {
+            rank: settings.rank,
+            curvature: squared(settings.max_curvature),
+            shear: squared(settings.max_shear),
+            advance: or_none(settings.max_advance),
+        }
+    }
+}
+
+impl EdgeStatus {
+    /// Of an edge with one normal at each end of which all terms are used.
+    #[inline(always)]
+    pub(crate) fn quadratic(full_rank: bool) -> Self {
+        Self { rank: if full_rank { 2 } else { 1 }, lowered: None, cubic: false }
+    }
+}
+
+/// Bow and shear, without branches: loops over this become vector instructions.
+#[inline(always)]
+pub(crate) fn bow_and_shear(d: DVec3, [n_j, n_k]: [DVec3; 2], limits: &Limits) -> Direct {
     let (u, v) = (n_j + n_k, n_k - n_j);
     let (a, b) = (n_j.dot(d), n_k.dot(d));
     let (uu, vv) = (u.length_squared(), v.length_squared());
     // twice the squared singular values are uu and vv
-    if uu.min(vv) > settings.rank * uu.max(vv) {
-        let (bow, shear) = (u * ((a - b) / uu), v * (-(a + b) / vv));
-        let value = bow + shear;
-        if violation(value, Some(shear), d, settings).is_none() {
-            let status = EdgeStatus { rank: 2, lowered: None, cubic: false };
-            return CurvatureParameter { value, status };
-        }
-    }
-    one_each_lowered(d, [n_j, n_k], settings)
+    let full_rank = lesser(uu, vv) > limits.rank * greater(uu, vv);
+    let or_zero = |x: f64| if full_rank { x } else { 0.0 };
+    // not finite without full rank, when there is no shear
+    let slope = or_zero(-(a + b) / vv);
+    let shear = DVec3::new(or_zero(v.x * slope), or_zero(v.y * slope), or_zero(v.z * slope));
+    let value = u * ((a - b) / uu) + shear;
+    let dd = d.length_squared();
+    let violated = (value.length_squared() > limits.curvature * dd)
+        | (vv * (slope * slope) > limits.shear * dd)
+        | (value.dot(d).abs() > limits.advance * dd);
+    Direct { value, full_rank, accepted: !violated & (uu > 0.0) & (full_rank | (uu >= vv)) }
+}
+
+/// The lesser of two numbers, in one instruction.
+#[inline(always)]
+pub(crate) fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers, in one instruction.
+#[inline(always)]
+pub(crate) fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// The same where not both terms can be used.

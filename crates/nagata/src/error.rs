@@ -54,6 +54,14 @@ pub enum MeshError {
         /// Its position.
         position: DVec3,
     },
+    /// New positions that are not one for each vertex.
+    #[error("{given} positions given; the mesh has {expected} vertices")]
+    Positions {
+        /// Positions given.
+        given: usize,
+        /// Number of vertices.
+        expected: usize,
+    },
 }
 
 /// Why normals do not fit a mesh.
@@ -106,6 +114,9 @@ pub enum NormalsError {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SurfaceError {
+    /// New positions do not fit the mesh.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
     /// The normals belong to another mesh.
     #[error(transparent)]
     Normals(#[from] NormalsError),

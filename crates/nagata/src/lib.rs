@@ -7,6 +7,7 @@ mod blend;
 mod corner_normals;
 mod correction;
 mod curvature_parameter;
+mod edge_blocks;
 mod edge_curve;
 mod edge_table;
 mod error;

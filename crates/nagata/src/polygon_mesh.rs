@@ -33,11 +33,7 @@ impl PolygonMesh {
         for (face, corners) in faces.iter().enumerate() {
             check_face(face, corners.as_ref(), positions.len())?;
         }
-        if let Some((vertex, &position)) =
-            positions.iter().enumerate().find(|(_, position)| !position.is_finite())
-        {
-            return Err(MeshError::NotFinite { vertex, position });
-        }
+        check_positions(&positions)?;
         let stride = if faces.iter().any(|f| f.as_ref().len() == 4) { 4 } else { 3 };
         let mut corners = Vec::with_capacity(stride * faces.len());
         for face in faces {
@@ -45,6 +41,21 @@ impl PolygonMesh {
             corners.extend((0..stride).map(|c| VertexId::new(face[c.min(face.len() - 1)])));
         }
         Ok(Self::from_corners(VertexMap::from_vec(positions), corners, stride))
+    }
+
+    /// Moves all vertices.
+    ///
+    /// # Errors
+    ///
+    /// If there is not one position for each vertex, or one is not finite; then none is moved.
+    pub fn set_positions(&mut self, positions: &[DVec3]) -> Result<(), MeshError> {
+        let (given, expected) = (positions.len(), self.vertex_count());
+        if given != expected {
+            return Err(MeshError::Positions { given, expected });
+        }
+        check_positions(positions)?;
+        self.positions.as_mut_slice().copy_from_slice(positions);
+        Ok(())
     }
 
     /// Pairs the sides of checked faces.
@@ -258,6 +269,13 @@ fn check_sizes(vertices: usize, faces: usize) -> Result<(), MeshError> {
         return Err(MeshError::TooLarge { faces, vertices, max: MAX_ELEMENTS });
     }
     Ok(())
+}
+
+fn check_positions(positions: &[DVec3]) -> Result<(), MeshError> {
+    match positions.iter().enumerate().find(|(_, position)| !position.is_finite()) {
+        Some((vertex, &position)) => Err(MeshError::NotFinite { vertex, position }),
+        None => Ok(()),
+    }
 }
 
 fn check_face(face: usize, corners: &[usize], count: usize) -> Result<(), MeshError> {

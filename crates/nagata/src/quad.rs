@@ -134,15 +134,11 @@ impl NagataQuad {
         let side = divisions + 1;
         assert_eq!(points.len(), side * side, "one point for each grid point");
         let [c00, c10, c01, c11, c20, c02, c21, c12] = self.monomials();
-        fill_rows(
-            points,
-            divisions,
-            |_| side,
-            |eta| Row {
-                constant: c00 + (c10 + c20 * eta) * eta,
-                linear: c01 + (c11 + c21 * eta) * eta,
-                quadratic: c02 + c12 * eta,
-            },
-        );
+        let row = |eta: f64| Row {
+            constant: c00 + (c10 + c20 * eta) * eta,
+            linear: c01 + (c11 + c21 * eta) * eta,
+            quadratic: c02 + c12 * eta,
+        };
+        fill_rows([points], divisions, |_| side, |eta| [row(eta)]);
     }
 }

@@ -20,25 +20,29 @@ pub(crate) fn lattice_size(divisions: usize) -> usize {
     (divisions + 1) * (divisions + 2) / 2
 }
 
-/// Fills row after row: row `r` has `length(r)` points and belongs to the parameter `r / divisions`.
-#[inline]
-pub(crate) fn fill_rows(
-    points: &mut [DVec3],
+/// Fills row after row, of `N` patches together: row `r` has `length(r)` points and belongs to the
+/// parameter `r / divisions`.
+#[inline(always)]
+pub(crate) fn fill_rows<const N: usize>(
+    mut points: [&mut [DVec3]; N],
     divisions: usize,
     length: impl Fn(usize) -> usize,
-    row_at: impl Fn(f64) -> Row,
+    row_at: impl Fn(f64) -> [Row; N],
 ) {
     let step = 1.0 / divisions as f64;
-    let mut rest = points;
+    let mut first = 0;
     for row in 0..=divisions {
-        let (points, following) = rest.split_at_mut(length(row));
-        let Row { constant, linear, quadratic } = row_at(row as f64 * step);
+        let rows = row_at(row as f64 * step);
+        let end = first + length(row);
+        let mut points = points.each_mut().map(|points| &mut points[first..end]);
         let mut k = 0.0;
-        for point in points {
+        for at in 0..end - first {
             let t = k * step;
-            *point = constant + (linear + quadratic * t) * t;
+            for (points, Row { constant, linear, quadratic }) in points.iter_mut().zip(&rows) {
+                points[at] = *constant + (*linear + *quadratic * t) * t;
+            }
             k += 1.0;
         }
-        rest = following;
+        first = end;
     }
 }

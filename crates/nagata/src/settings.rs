@@ -132,6 +132,12 @@ impl Settings {
         }
     }
 
+    /// The misfit, in chords, from which on cubic curves replace quadratic ones; `None` if they never do.
+    pub(crate) fn max_misfit(&self) -> Option<f64> {
+        (self.continuity == Continuity::TangentPlane(TangentPlanes::Robust))
+            .then_some(self.correction.max_misfit)
+    }
+
     /// Refuses numbers with which the construction makes no sense.
     pub(crate) fn check(&self) -> Result<(), SurfaceError> {
         let Self { edges, correction, .. } = self;

@@ -1,18 +1,17 @@
 //! Surfaces: patches over a mesh that share their edge curves.
 
-use basemesh::{EdgeId, EdgeMap, FaceId};
+use basemesh::{EdgeId, FaceId};
 use glam::DVec3;
 
 use crate::corner_normals::CornerNormals;
-use crate::curvature_parameter::{
-    CurvatureParameter, EdgeNormals, EdgeStatus, curvature_parameter, end_misfit, one_each,
-};
+use crate::curvature_parameter::{EdgeNormals, EdgeStatus, curvature_parameter, end_misfit};
+use crate::edge_blocks::EdgeBlocks;
 use crate::edge_curve::EdgeCurve;
 use crate::error::SurfaceError;
 use crate::ids::Side;
 use crate::polygon_mesh::PolygonMesh;
 use crate::quad::NagataQuad;
-use crate::settings::{Continuity, Settings, TangentPlanes};
+use crate::settings::{Continuity, Settings};
 use crate::tangent_continuous::G1Triangle;
 use crate::triangle::NagataTriangle;
 
@@ -38,16 +37,9 @@ pub struct NagataSurface {
     mesh: PolygonMesh,
     normals: CornerNormals,
     settings: Settings,
-    edges: EdgeMap<SolvedEdge>,
+    edges: EdgeBlocks,
     /// Cubic parts of the few curves that have one, ascending by edge.
     skews: Vec<(EdgeId, DVec3)>,
-}
-
-/// What is stored for an edge.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct SolvedEdge {
-    curvature: DVec3,
-    status: EdgeStatus,
 }
 
 impl NagataSurface {
@@ -70,13 +62,28 @@ impl NagataSurface {
         {
             return Err(SurfaceError::Quadrilateral { face: face.index() });
         }
-        let edges = EdgeMap::from_fn(mesh.edge_count(), |edge| {
-            let (curve, status) = solve(&mesh, &normals, edge, &settings);
-            SolvedEdge { curvature: curve.curvature, status }
-        });
-        let cubic = edges.iter().filter(|(_, edge)| edge.status.cubic).map(|(id, _)| id);
-        let skews = cubic.map(|id| (id, solve(&mesh, &normals, id, &settings).0.skew)).collect();
+        let (edges, skews) = curves(&mesh, &normals, &settings, None);
         Ok(Self { mesh, normals, settings, edges, skews })
+    }
+
+    /// Moves all vertices and takes other normals, as in each step of a simulation: the surface that
+    /// [`new`](Self::new) would make, in the memory of this one.
+    ///
+    /// # Errors
+    ///
+    /// [`SurfaceError`] if there is not one position for each vertex, one is not finite, or the normals belong
+    /// to another mesh; then the surface stays as it is.
+    pub fn update(
+        &mut self,
+        positions: &[DVec3],
+        normals: CornerNormals,
+    ) -> Result<(), SurfaceError> {
+        normals.check(&self.mesh)?;
+        self.mesh.set_positions(positions)?;
+        self.normals = normals;
+        let old = std::mem::take(&mut self.edges);
+        (self.edges, self.skews) = curves(&self.mesh, &self.normals, &self.settings, Some(old));
+        Ok(())
     }
 
     /// The mesh.
@@ -100,15 +107,16 @@ impl NagataSurface {
     /// How the curve of an edge was found.
     #[must_use]
     pub fn edge_status(&self, edge: EdgeId) -> EdgeStatus {
-        self.edges[edge].status
+        self.edges.status(edge)
     }
 
     /// The curve of an edge, from its lower to its higher vertex.
     #[inline]
     #[must_use]
     pub fn edge_curve(&self, edge: EdgeId) -> EdgeCurve {
-        let SolvedEdge { curvature, status } = self.edges[edge];
-        EdgeCurve { curvature, skew: if status.cubic { self.skew(edge) } else { DVec3::ZERO } }
+        let cubic = self.edges.status(edge).cubic;
+        let skew = if cubic { self.skew(edge) } else { DVec3::ZERO };
+        EdgeCurve { curvature: self.edges.curvature(edge), skew }
     }
 
     fn skew(&self, edge: EdgeId) -> DVec3 {
@@ -184,56 +192,61 @@ impl NagataSurface {
 
     #[inline]
     fn curvature_of(&self, face: FaceId, corner: usize) -> DVec3 {
-        self.edges[self.mesh.edge(Side { face, corner })].curvature
+        self.edges.curvature(self.mesh.edge(Side { face, corner }))
     }
 
     /// Bytes on the heap, without what allocators add.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.mesh.bytes()
-            + self.normals.bytes()
-            + size_of_val(self.edges.as_slice())
-            + size_of_val(&*self.skews)
+        self.mesh.bytes() + self.normals.bytes() + self.edges.bytes() + size_of_val(&*self.skews)
     }
 }
 
-/// The curve of an edge, from its lower to its higher vertex.
-#[inline(always)]
+/// What a surface stores for its edges, in the memory of `old`.
+fn curves(
+    mesh: &PolygonMesh,
+    normals: &CornerNormals,
+    settings: &Settings,
+    old: Option<EdgeBlocks>,
+) -> (EdgeBlocks, Vec<(EdgeId, DVec3)>) {
+    let solved = |edge| solve(mesh, normals, edge, settings);
+    let edges = EdgeBlocks::new(mesh, normals, settings, old, |edge| {
+        let (curve, status) = solved(edge);
+        (curve.curvature, status)
+    });
+    if settings.max_misfit().is_none() {
+        return (edges, Vec::new());
+    }
+    let cubic = mesh.edges().filter(|edge| edges.status(*edge).cubic);
+    let skews = cubic.map(|edge| (edge, solved(edge).0.skew)).collect();
+    (edges, skews)
+}
+
+/// The curve of an edge, from its lower to its higher vertex: the quadratic one, or a cubic one if it does
+/// not meet the normals and common tangent planes are wanted.
+#[cold]
 fn solve(
     mesh: &PolygonMesh,
     normals: &CornerNormals,
     edge: EdgeId,
     settings: &Settings,
 ) -> (EdgeCurve, EdgeStatus) {
+    let (one_each, any);
+    let normals = if let Some(normals) = normals.one_each(mesh, edge) {
+        one_each = normals;
+        EdgeNormals { start: &one_each[..1], end: &one_each[1..] }
+    } else {
+        any = normals_at(mesh, normals, edge);
+        EdgeNormals { start: &any[0], end: &any[1] }
+    };
     let chord = chord(mesh, edge);
-    if let Some([start, end]) = normals.one_each(mesh, edge) {
-        let found = one_each(chord, [start, end], &settings.edges);
-        if settings.continuity != Continuity::TangentPlane(TangentPlanes::Robust) {
-            return (EdgeCurve::quadratic(found.value), found.status);
-        }
-        return replaced(chord, EdgeNormals { start: &[start], end: &[end] }, found, settings);
-    }
-    let [start, end] = normals_at(mesh, normals, edge);
-    let ends = EdgeNormals { start: &start, end: &end };
-    replaced(chord, ends, curvature_parameter(chord, ends, &settings.edges), settings)
-}
-
-/// The quadratic curve, or a cubic one if it does not meet the normals and common tangent planes are
-/// wanted.
-#[inline]
-fn replaced(
-    chord: DVec3,
-    normals: EdgeNormals<'_>,
-    found: CurvatureParameter,
-    settings: &Settings,
-) -> (EdgeCurve, EdgeStatus) {
+    let found = curvature_parameter(chord, normals, &settings.edges);
     let curve = EdgeCurve::quadratic(found.value);
-    if settings.continuity == Continuity::TangentPlane(TangentPlanes::Robust) {
-        let missed = || misfit(chord, &curve, normals) > settings.correction.max_misfit;
-        if found.status.lowered.is_some() || missed() {
-            let cubic = EdgeCurve::cubic(chord, normals, &settings.edges);
-            return (cubic, EdgeStatus { cubic: true, ..found.status });
-        }
+    if let Some(most) = settings.max_misfit()
+        && (found.status.lowered.is_some() || misfit(chord, &curve, normals) > most)
+    {
+        let cubic = EdgeCurve::cubic(chord, normals, &settings.edges);
+        return (cubic, EdgeStatus { cubic: true, ..found.status });
     }
     (curve, found.status)
 }

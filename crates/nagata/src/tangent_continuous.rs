@@ -50,11 +50,17 @@ impl G1Triangle {
     ) -> Self {
         let base = BasePatch { corners, edges };
         let corner_normals = corner_normals(&base, &given, settings);
-        let new = |corner| Correction::new(&base, corner, &corner_normals, planes, settings);
-        // written out: a map over the corners would copy what is large
-        let [a, b, c] = Corner::ALL;
-        let ((c0, s0), (c1, s1), (c2, s2)) = (new(a), new(b), new(c));
-        Self { base, corner_normals, corrections: [c0, c1, c2], status: [s0, s1, s2] }
+        let mut patch = Self {
+            base,
+            corner_normals,
+            corrections: [Correction::NONE; 3],
+            status: [CorrectionStatus::default(); 3],
+        };
+        for corner in Corner::ALL {
+            let (correction, i) = (&mut patch.corrections[corner.index()], corner.index());
+            patch.status[i] = correction.fill(&base, corner, &corner_normals, planes, settings);
+        }
+        patch
     }
 
     /// Corners, counter-clockwise seen from outside.

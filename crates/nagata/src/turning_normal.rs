@@ -59,24 +59,31 @@ impl TurningNormal {
         }
     }
 
-    /// The greatest length at the ends and in the middle; infinite if there is no normal in the
-    /// middle.
-    pub(crate) fn longest(&self) -> f64 {
-        let at_end = |at: usize, end: usize| {
-            let t = self.tangent[at];
+    /// Whether `|Γ|²` is at most `limit` at the ends and in the middle; no if there is no normal in the middle.
+    ///
+    /// It is `(M - κ (t·s)/|t|²)² / (|m|² - (m·t)²/|t|²)`; at the ends the divisor is one.
+    #[inline]
+    pub(crate) fn is_within(&self, limit: f64) -> bool {
+        let ([t0, t1, t2], [s0, s1, s2]) = (self.tangent, self.across);
+        let ([k0, k1], [m0, m1]) = (self.tilt, self.twist);
+        let at_end = |t: DVec3, s: DVec3, tilt: f64, twist: f64| {
             let tt = t.length_squared();
             // an end without a tangent, as at the apex of a cone, has no normal either
-            let part = if tt > 0.0 { t.dot(self.across[at]) / tt } else { 0.0 };
-            (self.twist[end] - self.tilt[end] * part).abs()
+            let part = if tt > 0.0 { t.dot(s) / tt } else { 0.0 };
+            let length = twist - tilt * part;
+            length * length <= limit
         };
-        let [a, b] = self.normals;
-        let [t0, t1, t2] = self.tangent;
-        let normal_in_the_middle = (a + b).cross(t0 + t1 * 2.0 + t2);
-        let needed = self.twist != [0.0; 2] || self.tilt != [0.0; 2];
-        if normal_in_the_middle == DVec3::ZERO && needed {
-            return f64::INFINITY;
+        if !(at_end(t0, s0, k0, m0) && at_end(t2, s2, k1, m1)) {
+            return false;
         }
-        let Along([middle]) = self.at::<1>(0.5);
-        middle.length().max(at_end(0, 0)).max(at_end(2, 1))
+        // twice and four times what they are in the middle
+        let n = self.normals[0] + self.normals[1];
+        let (t, s) = (t0 + t1 * 2.0 + t2, s0 + s1 * 2.0 + s2);
+        let tt = t.length_squared();
+        let (part, nt) = (t.dot(s) / tt, n.dot(t));
+        let length = (m0 + m1) - (k0 + k1) * part;
+        let square = n.length_squared() - nt * (nt / tt);
+        (tt > 0.0 && square > 0.0 && length * length <= limit * square)
+            || (self.twist == [0.0; 2] && self.tilt == [0.0; 2])
     }
 }

@@ -212,3 +212,26 @@ fn edges_of_collinear_triangles_are_singular() {
         assert_eq!(surface.report().tangent_plane, 0);
     }
 }
+
+#[test]
+fn updates_are_refused_as_a_whole() {
+    let mesh = common::sphere(2).mesh();
+    let normals = common::smooth(&mesh, &common::SPHERE);
+    let mut surface = build(&mesh, &normals, Settings::position());
+    let before = surface.clone();
+    let positions = mesh.positions().as_slice();
+    let (given, expected) = (positions.len() - 1, positions.len());
+    let refused = surface.update(&positions[1..], normals.clone());
+    assert_eq!(refused, Err(MeshError::Positions { given, expected }.into()));
+    let mut bad = positions.to_vec();
+    bad[5].y = f64::NAN;
+    let refused = surface.update(&bad, normals.clone());
+    assert!(
+        matches!(refused, Err(SurfaceError::Mesh(MeshError::NotFinite { vertex: 5, .. }))),
+        "{refused:?}"
+    );
+    let other = common::sphere(3).mesh();
+    let refused = surface.update(positions, common::smooth(&other, &common::SPHERE));
+    assert!(matches!(refused, Err(SurfaceError::Normals(_))), "{refused:?}");
+    assert_eq!(surface, before);
+}

@@ -9,10 +9,11 @@ use common::queries::spot;
 use common::{Random, SPHERE, TORUS, build};
 use nagata::basemesh::{FaceId, VertexId};
 use nagata::bezier_core::{Barycentric, Corner, LocalEdge};
-use nagata::glam::DVec3;
+use nagata::glam::{DVec3, Vec3Swizzles as _};
 use nagata::{
-    Apex, Continuity, EdgeCurve, EdgeNormals, EdgeSettings, NagataQuad, NagataSurface,
-    NagataTriangle, Patch, PolygonMesh, Settings, TangentPlanes, curvature_parameter,
+    Apex, Continuity, CornerNormals, EdgeCurve, EdgeNormals, EdgeSettings, EdgeStatus, NagataQuad,
+    NagataSurface, NagataTriangle, Patch, PolygonMesh, Settings, TangentPlanes,
+    curvature_parameter,
 };
 
 #[test]
@@ -72,7 +73,7 @@ fn neighbours_agree_bit_for_bit() {
         // any normals: edges bend wildly and limits act
         let mut random = Random(11);
         let normals: Vec<DVec3> = mesh.vertices().map(|_| random.unit()).collect();
-        let normals = nagata::CornerNormals::per_vertex(&mesh, &normals).unwrap();
+        let normals = CornerNormals::per_vertex(&mesh, &normals).unwrap();
         for settings in [Settings::position(), Settings::published(), Settings::tangent_plane()] {
             if mesh.is_triangular() || settings == Settings::position() {
                 no_cracks(&build(&mesh, &normals, settings));
@@ -86,7 +87,7 @@ fn creases_and_sheets_do_not_crack() {
     let mesh = common::cylinder(12, 2, true).mesh();
     let normals = common::cylinder_normals(&mesh, 2, 12);
     let fins = fins();
-    let estimated = nagata::CornerNormals::estimated(&fins, 0.5);
+    let estimated = CornerNormals::estimated(&fins, 0.5);
     for settings in [Settings::position(), Settings::tangent_plane()] {
         no_cracks(&build(&mesh, &normals, settings));
         no_cracks(&build(&fins, &estimated, settings));
@@ -182,6 +183,22 @@ fn batches_agree_with_single_points() {
     for (point, at) in points.iter().zip(Barycentric::lattice(8)) {
         assert!(point.distance(triangle.point(at)) <= 8.0 * f64::EPSILON, "{at:?}");
     }
+    // fours and a rest
+    let patches: Vec<NagataTriangle> = surface
+        .mesh()
+        .faces()
+        .take(11)
+        .map(|face| match surface.patch(face) {
+            Patch::Triangle(patch) => patch,
+            _ => panic!("not C0"),
+        })
+        .collect();
+    let mut all = vec![DVec3::ZERO; 45 * patches.len()];
+    NagataTriangle::sample_all(&patches, 8, &mut all);
+    for (patch, together) in patches.iter().zip(all.chunks_exact(45)) {
+        patch.sample(8, &mut points);
+        assert_eq!(points, together, "{patch:?}");
+    }
     let mesh = common::torus(8, 4, false).mesh();
     let surface = build(&mesh, &common::smooth(&mesh, &TORUS), Settings::position());
     let Patch::Quad(quad) = surface.patch(FaceId::new(3)) else { panic!("no quadrilateral") };
@@ -198,25 +215,59 @@ fn batches_agree_with_single_points() {
 #[test]
 fn edges_computed_one_by_one_have_the_same_bits() {
     for settings in [Settings::position(), Settings::published(), Settings::tangent_plane()] {
-        let surface = spot(settings);
-        let mut cubic = 0;
-        for edge in surface.mesh().edges() {
-            let [start, end] = surface.edge_normals(edge);
-            let normals = EdgeNormals { start: &start, end: &end };
-            let [a, b] = surface.mesh().edge_vertices(edge).map(|v| surface.mesh().position(v));
-            let found = curvature_parameter(b - a, normals, &settings.edges);
-            let expected = if surface.edge_status(edge).cubic {
-                cubic += 1;
-                EdgeCurve::cubic(b - a, normals, &settings.edges)
-            } else {
-                EdgeCurve::quadratic(found.value)
-            };
-            let bits = |curve: EdgeCurve| {
-                [curve.curvature, curve.skew].map(|v| v.to_array().map(f64::to_bits))
-            };
-            assert_eq!(bits(surface.edge_curve(edge)), bits(expected), "{edge:?}");
-        }
+        let cubic = same_bits_one_by_one(&spot(settings));
         let robust = settings.continuity == Continuity::TangentPlane(TangentPlanes::Robust);
         assert_eq!(cubic > 0, robust, "{cubic} cubic edges");
+        // normals by vertex, numbers of edges that blocks do not divide, lowered edges, parallel normals
+        for n in [3, 5] {
+            let mesh = common::torus(n, 3, true).mesh();
+            same_bits_one_by_one(&build(&mesh, &common::smooth(&mesh, &TORUS), settings));
+            let flat =
+                CornerNormals::per_vertex(&mesh, &vec![DVec3::Z; mesh.vertex_count()]).unwrap();
+            same_bits_one_by_one(&build(&mesh, &flat, settings));
+        }
     }
+}
+
+/// Moved vertices give the surface that is made anew, and moving them back the first one.
+#[test]
+fn updates_are_new_surfaces() {
+    for settings in [Settings::position(), Settings::tangent_plane()] {
+        let first = spot(settings);
+        let mesh = first.mesh();
+        let moved: Vec<DVec3> = mesh.positions().as_slice().iter().map(|p| p.yzx() * 1.5).collect();
+        let mut other = mesh.clone();
+        other.set_positions(&moved).unwrap();
+        let normals = CornerNormals::from_fn(&other, |p| Some(p + DVec3::X));
+        let mut surface = first.clone();
+        surface.update(&moved, normals.clone()).unwrap();
+        assert_eq!(surface, build(&other, &normals, settings));
+        surface.update(mesh.positions().as_slice(), first.normals().clone()).unwrap();
+        assert_eq!(surface, first);
+    }
+}
+
+/// Returns the number of cubic edges.
+fn same_bits_one_by_one(surface: &NagataSurface) -> usize {
+    let settings = surface.settings();
+    let mut cubic = 0;
+    for edge in surface.mesh().edges() {
+        let [start, end] = surface.edge_normals(edge);
+        let normals = EdgeNormals { start: &start, end: &end };
+        let [a, b] = surface.mesh().edge_vertices(edge).map(|v| surface.mesh().position(v));
+        let found = curvature_parameter(b - a, normals, &settings.edges);
+        let status = surface.edge_status(edge);
+        let expected = if status.cubic {
+            cubic += 1;
+            EdgeCurve::cubic(b - a, normals, &settings.edges)
+        } else {
+            EdgeCurve::quadratic(found.value)
+        };
+        let bits = |curve: EdgeCurve| {
+            [curve.curvature, curve.skew].map(|v| v.to_array().map(f64::to_bits))
+        };
+        assert_eq!(bits(surface.edge_curve(edge)), bits(expected), "{edge:?}");
+        assert_eq!(status, EdgeStatus { cubic: status.cubic, ..found.status }, "{edge:?}");
+    }
+    cubic
 }

@@ -5,8 +5,10 @@ use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
 use super::ray::Ray;
+use crate::curvature_parameter::lesser;
 use crate::quad::NagataQuad;
 use crate::surface::Patch;
+use crate::triangle::NagataTriangle;
 
 /// A box with sides parallel to the axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +65,11 @@ impl Aabb {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Flat {
     pub(super) corners: [DVec3; 3],
+    /// Curvature parameters of the edges opposite the corners; zero in quadrilaterals.
+    pub(super) curvature: [DVec3; 3],
+    /// How far the patch may be from the quadratic patch of these, at the same parameters; in units of
+    /// length.
+    pub(super) off_quadratic: f64,
     /// Of the patch.
     pub(super) bounds: Bounds,
     pub(super) face: FaceId,
@@ -73,27 +80,35 @@ pub(super) struct Flat {
 impl Flat {
     /// Those of a patch.
     pub(super) fn all(patch: &Patch, bounds: Bounds, face: FaceId) -> impl Iterator<Item = Self> {
-        let (first, second) = match patch {
-            Patch::Triangle(patch) => (patch.corners, None),
-            Patch::TangentPlane(patch) => (patch.corners(), None),
+        let (first, second, edges) = match patch {
+            Patch::Triangle(patch) => (patch.corners, None, Some(patch.curvature)),
+            Patch::TangentPlane(patch) => {
+                (patch.corners(), None, Some(patch.edges().map(|edge| edge.curvature)))
+            }
             Patch::Quad(NagataQuad { corners: [a, b, c, d], .. }) => {
-                ([*b, *d, *a], Some([*b, *c, *d]))
+                ([*b, *d, *a], Some([*b, *c, *d]), None)
             }
         };
-        let [a, b, c] = first;
+        let off_quadratic = if edges.is_some() { bounds.off_quadratic } else { bounds.bulge };
         // the first corner of the parameters is the last one of a triangle
-        [Some([c, a, b]), second].into_iter().flatten().zip(0..).map(move |(corners, half)| Self {
+        let [a, b, c] = first;
+        let [c0, c1, c2] = edges.unwrap_or_default();
+        let curvature = [c2, c0, c1];
+        let all = [Some([c, a, b]), second].into_iter().flatten().zip(0..);
+        all.map(move |(corners, half)| Self {
             corners,
+            curvature,
+            off_quadratic,
             bounds,
             face,
             half,
         })
     }
 
-    /// The corners of a triangle in the order of its face.
-    pub(super) fn in_order(&self) -> [DVec3; 3] {
-        let [c, a, b] = self.corners;
-        [a, b, c]
+    /// The quadratic patch of a triangle.
+    pub(super) fn quadratic(&self) -> NagataTriangle {
+        let ([c, a, b], [c2, c0, c1]) = (self.corners, self.curvature);
+        NagataTriangle { corners: [a, b, c], curvature: [c0, c1, c2] }
     }
 
     /// Faces in order.
@@ -118,10 +133,26 @@ impl Flat {
         a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
     }
 
-    pub(super) fn distance(&self, p: DVec3) -> f64 {
-        let [a, b, c] = self.corners;
+    /// How close `p` is to the patch: no point is closer than the first distance, one is not farther than
+    /// the second, up to round-off of the positions.
+    ///
+    /// The second is the distance of the point above that of the flat triangle which is closest to `p`, the
+    /// first the least distance in the same direction.
+    #[inline]
+    pub(super) fn reach(&self, p: DVec3) -> [f64; 2] {
+        let ([a, b, c], [c0, c1, c2]) = (self.corners, self.curvature);
         let [s, t, u] = closest_weights(p, self.corners);
-        (a * s + b * t + c * u).distance(p)
+        // from the point of the quadratic patch there
+        let to = p - (a * s + b * t + c * u) + c0 * (t * u) + c1 * (u * s) + c2 * (s * t);
+        let upper = to.length();
+        // how far the patch is in this direction: a quadratic polynomial
+        let heights = [a, b, c].map(|corner| to.dot(p - corner));
+        let lower = if upper > 0.0 {
+            lowest(heights, [c0, c1, c2].map(|c| to.dot(c))) / upper
+        } else {
+            0.0
+        };
+        [(lower - self.off_quadratic).max(0.0), upper + self.off_quadratic]
     }
 }
 
@@ -182,25 +213,50 @@ impl Piece {
     }
 }
 
+/// A lower bound of `Σ h_i b_i + Σ g_i b_j b_k` on the triangle: the least Bézier coefficient after all edges
+/// are halved.
+#[inline]
+fn lowest([h0, h1, h2]: [f64; 3], [g0, g1, g2]: [f64; 3]) -> f64 {
+    let (m0, m1, m2) = ((h1 + h2 + g0) * 0.5, (h2 + h0 + g1) * 0.5, (h0 + h1 + g2) * 0.5);
+    let middle = m0 + m1 + m2;
+    let least = lesser(lesser(h0, h1), h2);
+    let halves = [h0 + m1, h0 + m2, h1 + m2, h1 + m0, h2 + m0, h2 + m1];
+    let quarters = [
+        h0 + 2.0 * m2 + h1,
+        h1 + 2.0 * m0 + h2,
+        h2 + 2.0 * m1 + h0,
+        h0 + middle,
+        h1 + middle,
+        h2 + middle,
+    ];
+    let least = halves.into_iter().fold(least, |least, h| lesser(least, 0.5 * h));
+    quarters.into_iter().fold(least, |least, q| lesser(least, 0.25 * q))
+}
+
 /// Barycentric weights of the point of a flat triangle closest to `p`.
 pub(super) fn closest_weights(p: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (g11, g12, g22) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
     let (r1, r2) = (ab.dot(ap), ac.dot(ap));
     let determinant = g11 * g22 - g12 * g12;
-    if determinant > 0.0 {
-        let (s, t) = ((g22 * r1 - g12 * r2) / determinant, (g11 * r2 - g12 * r1) / determinant);
-        if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
-            return [1.0 - s - t, s, t];
-        }
+    let (s, t) = (g22 * r1 - g12 * r2, g11 * r2 - g12 * r1);
+    let u = determinant - s - t;
+    let regular = determinant > 0.0;
+    if regular && s >= 0.0 && t >= 0.0 && u >= 0.0 {
+        let (s, t) = (s / determinant, t / determinant);
+        return [(1.0 - s - t).max(0.0), s, t];
     }
-    let on = |from: DVec3, to: DVec3| {
+    // the closest point is on an edge that has the triangle behind it
+    let on = |seen: bool, from: DVec3, to: DVec3| {
+        if regular && !seen {
+            return (0.0, f64::INFINITY);
+        }
         let d = to - from;
         let square = d.length_squared();
         let t = if square > 0.0 { (d.dot(p - from) / square).clamp(0.0, 1.0) } else { 0.0 };
         (t, (from + d * t).distance_squared(p))
     };
-    let ((t0, d0), (t1, d1), (t2, d2)) = (on(b, c), on(c, a), on(a, b));
+    let ((t0, d0), (t1, d1), (t2, d2)) = (on(u < 0.0, b, c), on(s < 0.0, c, a), on(t < 0.0, a, b));
     if d0 <= d1 && d0 <= d2 {
         [0.0, 1.0 - t0, t0]
     } else if d1 <= d2 {

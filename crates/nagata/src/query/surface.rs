@@ -1,5 +1,7 @@
 //! Queries on a whole surface.
 
+use std::cell::Cell;
+
 use basemesh::FaceId;
 use glam::DVec3;
 
@@ -9,6 +11,7 @@ use super::ray::{self, Ray};
 use super::side::{self, Candidate};
 use super::tree::Tree;
 use super::{Closest, Hit, PatchPoint, closest};
+use crate::settings::Continuity;
 use crate::surface::{NagataSurface, Patch};
 
 /// Distances that differ by less, relatively, are taken for equal.
@@ -135,28 +138,29 @@ impl<'a> SurfaceQueries<'a> {
         let Aabb { low, high } = self.aabb();
         let far = p.abs().max(low.abs()).max(high.abs()).max_element();
         let widened = |distance: f64| distance * (1.0 + TIE) + 8.0 * f64::EPSILON * far;
-        let mut best = f64::INFINITY;
+        let limit = Cell::new(f64::INFINITY);
+        let lower = |distance: f64| limit.set(limit.get().min(widened(distance)));
         let (mut nearest, mut open): (Vec<Near>, _) = (Vec::new(), Vec::new());
-        self.tree.visit_near(p, f64::INFINITY, |item| {
-            let flat = &self.flats[item];
-            let next = (flat.distance(p) <= widened(best) + flat.bounds.bulge)
-                .then(|| self.near(flat, p, widened(best), &mut open));
-            if let Some(next) = next.flatten() {
-                best = best.min(next.distance);
-                nearest.retain(|near| near.distance <= widened(best) && near.face != next.face);
+        let lower_bound = |item: usize| {
+            let [least, most] = self.flats[item].reach(p);
+            lower(most);
+            least
+        };
+        self.tree.visit_near(p, &limit, lower_bound, |item| {
+            if let Some(next) = self.near(&self.flats[item], p, limit.get(), &mut open) {
+                lower(next.distance);
+                nearest.retain(|near| near.distance <= limit.get() && near.face != next.face);
                 nearest.push(next);
             }
-            widened(best)
         });
         let order =
             |a: &Near, b: &Near| a.distance.total_cmp(&b.distance).then(a.face.cmp(&b.face));
         let first = *nearest.iter().min_by(|a, b| order(a, b))?;
-        let patch = self.surface.patch(first.face);
-        let at = patch.point(first.parameters);
+        let at = self.candidate(&first).found.at.point;
         let same = SAME_POINT * first.size;
         let candidates: Vec<Candidate> = nearest
             .into_iter()
-            .filter(|near| near.distance <= widened(best))
+            .filter(|near| near.distance <= limit.get())
             .map(|near| self.candidate(&near))
             .filter(|candidate| candidate.found.at.point.distance(at) <= same)
             .collect();
@@ -172,14 +176,19 @@ impl<'a> SurfaceQueries<'a> {
         open: &mut Vec<(f64, Piece)>,
     ) -> Option<Near> {
         let face = flat.face;
-        if flat.bounds.off_quadratic > 0.0 {
-            // the quadratic patch nearby is much faster to search
-            let quadratic = Patch::Triangle(self.surface.quadratic(face, flat.in_order()));
-            let off = flat.bounds.off_quadratic;
-            let flat = Flat { bounds: Bounds::of(&quadratic), ..*flat };
-            closest::closest(&quadratic, &flat, p, limit + off, open)?;
-        }
-        let patch = self.surface.patch(face);
+        let patch = match self.surface.settings().continuity {
+            Continuity::Position if self.surface.mesh().is_triangular() => {
+                Patch::Triangle(flat.quadratic())
+            }
+            Continuity::Position => self.surface.patch(face),
+            Continuity::TangentPlane(_) => {
+                // the quadratic patch nearby is much faster to search
+                let quadratic = Patch::Triangle(flat.quadratic());
+                let nearby = Flat { bounds: Bounds::of(&quadratic), ..*flat };
+                closest::closest(&quadratic, &nearby, p, limit + flat.off_quadratic, open)?;
+                self.surface.patch(face)
+            }
+        };
         let (parameters, distance) = closest::closest(&patch, flat, p, limit, open)?;
         Some(Near { face, parameters, distance, size: flat.size() })
     }
@@ -235,16 +244,16 @@ impl<'a> SurfaceQueries<'a> {
         if !ray.is_valid() {
             return;
         }
-        let mut limit = f64::INFINITY;
+        let limit = Cell::new(f64::INFINITY);
         let slack = ray.round_off(self.aabb.low.abs().max(self.aabb.high.abs()));
-        self.tree.visit_along(ray, slack, |item| {
+        self.tree.visit_along(ray, slack, &limit, |item| {
             let flat = &self.flats[item];
             let (face, patch) = (flat.face, self.surface.patch(flat.face));
-            let (to, size) = (limit, flat.size());
+            let (mut to, size) = (limit.get(), flat.size());
             ray::hits(&patch, flat, ray, to, |parameters, t| {
-                take(Hit { face, at: patch.at(parameters), t }, size, &mut limit);
+                take(Hit { face, at: patch.at(parameters), t }, size, &mut to);
             });
-            limit
+            limit.set(to);
         });
     }
 }

@@ -1,5 +1,7 @@
 //! A hierarchy of oriented boxes around flat triangles.
 
+use std::cell::Cell;
+
 use glam::DVec3;
 
 use super::piece::Flat;
@@ -75,47 +77,75 @@ impl Tree {
         }
     }
 
-    /// Visits the items whose box is not farther from `p` than a limit, roughly the nearest first;
-    /// `visit` takes the number of an item and returns the new limit.
-    pub(super) fn visit_near(&self, p: DVec3, limit: f64, mut visit: impl FnMut(usize) -> f64) {
-        let keys = |node: &Node, _| node.squared_distances(p);
-        let squared = |limit: f64| (limit / self.unit) * (limit / self.unit);
-        self.visit(limit, keys, squared, &mut visit);
+    /// Visits the items that are not farther from `p` than `limit`, which may be lowered meanwhile, by their
+    /// boxes and by `distance`, a lower bound for an item; roughly the nearest first.
+    pub(super) fn visit_near(
+        &self,
+        p: DVec3,
+        limit: &Cell<f64>,
+        distance: impl Fn(usize) -> f64,
+        visit: impl FnMut(usize),
+    ) {
+        let squared = |distance: f64| (distance / self.unit) * (distance / self.unit);
+        let most = || squared(limit.get());
+        let keys = |node: &Node| {
+            let mut keys = node.squared_distances(p);
+            if let Some(first) = node.first_item() {
+                for (k, key) in keys[..node.count as usize].iter_mut().enumerate() {
+                    if *key <= most() {
+                        *key = squared(distance(first + k));
+                    }
+                }
+            }
+            keys
+        };
+        self.visit(most, keys, visit);
     }
 
-    /// Visits the items whose box a ray meets before a limit of its parameter, roughly the first ones
-    /// first. `slack` is the round-off of positions.
-    pub(super) fn visit_along(&self, ray: &Ray, slack: f64, mut visit: impl FnMut(usize) -> f64) {
+    /// Visits the items whose box a ray meets before `limit` of its parameter, which may be lowered
+    /// meanwhile, roughly the first ones first. `slack` is the round-off of positions.
+    pub(super) fn visit_along(
+        &self,
+        ray: &Ray,
+        slack: f64,
+        limit: &Cell<f64>,
+        visit: impl FnMut(usize),
+    ) {
         let slack = slack / self.unit;
-        let keys = |node: &Node, limit: f64| node.entries(ray, slack, limit);
-        self.visit(f64::INFINITY, keys, |limit| limit, &mut visit);
+        self.visit(|| limit.get(), |node| node.entries(ray, slack, limit.get()), visit);
     }
 
-    /// `keys` are those of the children of a node, to be compared with `scaled(limit)`; NaN for a child
-    /// without interest.
+    /// Visits items with keys up to `most`, roughly ascending. `keys` are those of the children of a node;
+    /// NaN for a child without interest.
     fn visit(
         &self,
-        mut limit: f64,
-        keys: impl Fn(&Node, f64) -> [f64; WIDTH],
-        scaled: impl Fn(f64) -> f64,
-        visit: &mut impl FnMut(usize) -> f64,
+        most: impl Fn() -> f64,
+        keys: impl Fn(&Node) -> [f64; WIDTH],
+        mut visit: impl FnMut(usize),
     ) {
         let mut open: Vec<(f64, u32)> = Vec::with_capacity(64);
         open.push((0.0, 0));
         while let Some((key, at)) = open.pop() {
-            if key > scaled(limit) {
+            if key > most() {
                 continue;
             }
             if at & ITEM != 0 {
-                limit = visit((at & !ITEM) as usize);
+                visit((at & !ITEM) as usize);
                 continue;
             }
             let node = &self.nodes[at as usize];
-            let (all, start, most) = (keys(node, limit), open.len(), scaled(limit));
-            let children = (node.first..).zip(&all[..node.count as usize]);
-            open.extend(children.filter(|(_, key)| **key <= most).map(|(at, key)| (*key, at)));
-            // the nearest one last, to be taken first
-            open[start..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
+            let (all, start) = (keys(node), open.len());
+            for (at, key) in (node.first..).zip(&all[..node.count as usize]) {
+                if *key <= most() {
+                    open.push((*key, at));
+                    // the nearest one last, to be taken first
+                    let mut k = open.len() - 1;
+                    while k > start && open[k - 1].0 <= open[k].0 {
+                        open.swap(k - 1, k);
+                        k -= 1;
+                    }
+                }
+            }
         }
     }
 }
@@ -137,6 +167,11 @@ impl Node {
         let (x, y) = normal.any_orthonormal_pair();
         let centre = items.iter().map(Flat::centre).sum::<DVec3>() / items.len() as f64;
         Self { centre, axes: [normal, x, y].map(|axis| axis * scale), ..Self::EMPTY }
+    }
+
+    /// The number of the first child if the children are items.
+    fn first_item(&self) -> Option<usize> {
+        (self.first & ITEM != 0).then_some((self.first & !ITEM) as usize)
     }
 
     /// Components along the axes.
@@ -171,7 +206,9 @@ impl Node {
         let mut squares = [0.0; WIDTH];
         for ((low, high), at) in self.low.iter().zip(&self.high).zip(at) {
             for k in 0..WIDTH {
-                let out = (f64::from(low[k]) - at).max(at - f64::from(high[k])).max(0.0);
+                let (below, above) = (f64::from(low[k]) - at, at - f64::from(high[k]));
+                let out = if below > above { below } else { above };
+                let out = if out > 0.0 { out } else { 0.0 };
                 squares[k] += out * out;
             }
         }
