@@ -4,7 +4,9 @@ use std::hint::black_box;
 
 use apatch::basemesh::{TriMesh, VertexMap};
 use apatch::glam::DVec3;
-use apatch::rational::{Normals, RationalSurface, RepairSettings, Settings, SheetSettings};
+use apatch::rational::{
+    Normals, RationalSurface, RepairSettings, Settings, SheetSettings, SurfacePoint,
+};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 /// A torus with mixed convexity and its unit normals.
@@ -62,7 +64,22 @@ fn points(c: &mut Criterion) {
     let lattice: Vec<[f64; 3]> = (0..10).map(at).collect();
     let topology = surface.mesh().topology();
     group.throughput(Throughput::Elements(10 * topology.face_count() as u64));
+    let sum = |points: &[Option<SurfacePoint>]| {
+        let points = points.iter().flatten();
+        points.fold(DVec3::ZERO, |sum, p| sum + p.point + p.normal())
+    };
     group.bench_function("faces", |b| {
+        let mut points = Vec::new();
+        b.iter(|| {
+            let of_face = |f| {
+                points.clear();
+                surface.face(f).points(&lattice, &mut points);
+                sum(&points)
+            };
+            topology.faces().map(of_face).sum::<DVec3>()
+        });
+    });
+    group.bench_function("faces one by one", |b| {
         b.iter(|| {
             let points = topology.faces().flat_map(|f| lattice.iter().map(move |&x| (f, x)));
             let sum = points.filter_map(|(f, x)| surface.face_point(f, x));
@@ -70,7 +87,19 @@ fn points(c: &mut Criterion) {
         });
     });
     group.throughput(Throughput::Elements(10 * topology.edge_count() as u64));
+    let square: Vec<[f64; 2]> = lattice.iter().map(|x| [x[0], x[1]]).collect();
     group.bench_function("edges", |b| {
+        let mut points = Vec::new();
+        b.iter(|| {
+            let of_edge = |e| {
+                points.clear();
+                surface.edge(e).points(&square, &mut points);
+                sum(&points)
+            };
+            topology.edges().map(of_edge).sum::<DVec3>()
+        });
+    });
+    group.bench_function("edges one by one", |b| {
         b.iter(|| {
             let points =
                 topology.edges().flat_map(|e| lattice.iter().map(move |&x| (e, [x[0], x[1]])));

@@ -11,7 +11,9 @@ mod face;
 mod free_weight;
 mod hull;
 mod kinds;
+mod lanes;
 mod loop_step;
+mod move_apices;
 mod normals;
 mod points;
 mod rays;
@@ -21,6 +23,7 @@ mod settings;
 mod sheet;
 mod surface;
 mod tessellate;
+mod transversals;
 mod validity;
 
 pub use base::{BaseLayer, Split};
@@ -38,3 +41,4 @@ pub use settings::{
     ApexSettings, FreeWeightRule, RepairSettings, Settings, ShapeControl, SheetSettings,
 };
 pub use surface::RationalSurface;
+pub use validity::Wedge;

@@ -43,14 +43,17 @@ impl Tetrahedron {
     #[inline]
     #[must_use]
     pub fn barycentric(&self, p: DVec3) -> [f64; 4] {
+        self.barycentric_by(&self.gradients(), p)
+    }
+
+    /// As [`barycentric`](Self::barycentric), with known gradients.
+    #[inline]
+    pub(crate) fn barycentric_by(&self, gradients: &[DVec3; 4], p: DVec3) -> [f64; 4] {
         // from the nearest corner, so that the small coordinates keep their digits
-        let near = (0..4)
-            .min_by(|&i, &j| {
-                let [i, j] = [i, j].map(|c| self.corners[c].distance_squared(p));
-                i.total_cmp(&j)
-            })
-            .unwrap_or(0);
-        let (gradients, offset) = (self.gradients(), p - self.corners[near]);
+        let squares = self.corners.map(|corner| corner.distance_squared(p));
+        let nearer = |i: usize, j: usize| if squares[j] < squares[i] { j } else { i };
+        let near = nearer(nearer(0, 1), nearer(2, 3));
+        let offset = p - self.corners[near];
         let mut x = gradients.map(|g| g.dot(offset));
         x[near] += 1.0;
         x

@@ -14,7 +14,12 @@ impl Tessellation {
     /// without area is not counted, nor is one with a corner that has no normal.
     #[must_use]
     pub fn flipped_facets(&self) -> usize {
-        self.triangles.iter().filter(|t| self.facing(**t) < 0.0).count()
+        self.flipped().count()
+    }
+
+    /// Those facets, by index.
+    pub fn flipped(&self) -> impl Iterator<Item = usize> {
+        (0..self.triangles.len()).filter(|&t| self.facing(self.triangles[t]) < 0.0)
     }
 
     /// Cosine of the angle between a facet and the mean of its normals; 0 without area.
@@ -33,7 +38,10 @@ impl Tessellation {
     pub(crate) fn unfold(&mut self) {
         for _ in 0..MAX_PASSES {
             let bad: Vec<usize> = (0..self.triangles.len()).filter(|&t| self.is_bad(t)).collect();
-            let mut by_side = self.sides();
+            if bad.is_empty() {
+                return;
+            }
+            let mut by_side = self.sides_around(&bad);
             let mut changed = false;
             for t in bad {
                 if self.is_bad(t) {
@@ -51,12 +59,14 @@ impl Tessellation {
         self.facing(self.triangles[t]) < 0.2
     }
 
-    fn sides(&self) -> HashMap<[usize; 2], usize> {
-        let sides = |t: usize| {
-            let [a, b, c] = self.triangles[t];
-            [[a, b], [b, c], [c, a]].map(|side| (side, t))
-        };
-        (0..self.triangles.len()).flat_map(sides).collect()
+    /// The sides of all facets that share a corner with one of these.
+    fn sides_around(&self, bad: &[usize]) -> HashMap<[usize; 2], usize> {
+        let mut near = vec![false; self.positions.len()];
+        bad.iter().flat_map(|&t| self.triangles[t]).for_each(|p| near[p] = true);
+        let sides =
+            |(t, &[a, b, c]): (usize, &[usize; 3])| [[a, b], [b, c], [c, a]].map(|side| (side, t));
+        let triangles = self.triangles.iter().enumerate();
+        triangles.filter(|(_, t)| t.iter().any(|&p| near[p])).flat_map(sides).collect()
     }
 
     /// Flips the edge of a facet that gains most; `false` if none gains.

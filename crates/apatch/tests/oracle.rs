@@ -131,11 +131,13 @@ fn face_weights(surface: &RationalSurface, face: FaceId, expected: &Value, what:
         assert_eq!(got.is_some(), expected.is_object(), "{what} {name}");
         let Some(got) = got else { continue };
         vector_near(got.apex, &expected["apex"], what);
-        near(got.height, number(&expected["t"]), what);
+        let [a, b, c] = patch.corners;
+        let height = (got.apex - a).dot((b - a).cross(c - a).normalize());
+        near(height, number(&expected["t"]), what);
         all_near(got.l1v, &expected["L1v"], what);
         all_near(got.l1e, &expected["L1e"], what);
         all_near(got.fitted, &expected["q_au"], what);
-        near(got.published, number(&expected["p_u"]), what);
+        near(got.published(&patch.base), number(&expected["p_u"]), what);
         near(got.neighbours, number(&expected["neighbour"]), what);
         near(got.free, number(&expected["f3"]), what);
         all_near(got.l2v, &expected["L2v"], what);
@@ -189,8 +191,9 @@ fn edge_numbers(
         let (got, expected) = (patch.sides[side.index()], &expected[name]);
         assert_eq!(got.is_some(), expected.is_object(), "{what} {name}");
         let Some(got) = got else { continue };
-        near(got.opening, number(&expected["theta"]), what);
-        near(got.angle, number(&expected["psi"]), what);
+        let wedge = surface.wedge(edge, side).unwrap();
+        near(wedge.opening, number(&expected["theta"]), what);
+        near(wedge.angle, number(&expected["psi"]), what);
         let order = |[a, b]: [f64; 2]| if turned { [b, a] } else { [a, b] };
         let weights = order(patch.weights);
         near(weights[0], number(&expected["e_ij"]), what);

@@ -14,8 +14,8 @@ use common::{double_torus, given, l_block, noisy_sphere};
 /// Edge tetrahedra that are not valid, straight from the surface.
 fn invalid(surface: &RationalSurface) -> usize {
     let topology = surface.mesh().topology();
-    let sides = topology.edges().flat_map(|e| surface.edge(e).sides);
-    sides.flatten().filter(|side| !side.is_valid()).count()
+    let wedges = topology.edges().flat_map(|e| Side::BOTH.map(|side| surface.wedge(e, side)));
+    wedges.flatten().filter(|wedge| !wedge.is_valid()).count()
 }
 
 fn check(name: &str, mesh: &TriMesh) {

@@ -220,6 +220,33 @@ fn patches_have_the_same_normals_where_they_meet() {
     }
 }
 
+/// Points found together are those found one by one, bit for bit, whatever their number.
+#[test]
+fn points_together_and_one_by_one() {
+    for (name, surface) in zoo() {
+        let topology = surface.mesh().topology();
+        let mut numbers = Numbers::new(11);
+        let mut found = Vec::new();
+        for face in topology.faces() {
+            // corners, points of edges, and a number of points that differs from face to face
+            let mut at = vec![[1.0, 0.0, 0.0], [0.0, 0.5, 0.5], [0.2, 0.3, 0.5]];
+            at.extend((0..face.index() % 20).map(|_| numbers.weights::<3>()));
+            found.clear();
+            surface.face(face).points(&at, &mut found);
+            let alone: Vec<_> = at.iter().map(|&x| surface.face_point(face, x)).collect();
+            assert_eq!(found, alone, "{name} face {face}");
+        }
+        for edge in topology.edges() {
+            let mut at = vec![[0.0, 0.5], [1.0, 0.0], [0.3, 1.0], [0.6, 0.2]];
+            at.extend((0..edge.index() % 20).map(|_| [numbers.unit(), numbers.unit()]));
+            found.clear();
+            surface.edge(edge).points(&at, &mut found);
+            let alone: Vec<_> = at.iter().map(|&x| surface.edge_point(edge, x)).collect();
+            assert_eq!(found, alone, "{name} edge {edge}");
+        }
+    }
+}
+
 #[test]
 fn rays_meet_the_surface_where_it_is() {
     let mesh = testkit::meshes::icosphere(0);

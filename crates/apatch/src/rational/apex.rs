@@ -1,11 +1,11 @@
 //! Where the apices of the face tetrahedra stand.
 
-use basemesh::{EdgeMap, FaceId, FaceMap, TriMesh, VertexMap};
+use basemesh::{EdgeMap, FaceId, TriMesh, VertexMap};
 use glam::DVec3;
 
 use super::base::others;
 use super::block::EdgeBlock;
-use super::kinds::{Convexity, Side};
+use super::kinds::{Convexity, EdgeData, Side};
 use super::settings::ApexSettings;
 
 /// Apices of a face, by [`Side::index`].
@@ -23,21 +23,27 @@ pub(crate) struct FaceFrame {
 }
 
 impl FaceFrame {
-    /// `None` for a triangle without area.
-    pub(crate) fn new(corners: [DVec3; 3]) -> Option<Self> {
+    #[inline]
+    pub(crate) fn new(corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
         let cross = (b - a).cross(c - a);
         let length = cross.length();
-        let longest =
-            [a - b, b - c, c - a].map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
-        // below this, the direction of the normal is round-off
-        let has_area = length > 1e-14 * longest;
-        has_area.then(|| Self {
+        Self {
             corners,
             centroid: (a + b + c) / 3.0,
             normal: cross / length,
             size: (0.5 * length).sqrt(),
-        })
+        }
+    }
+
+    /// False for a triangle without a plane.
+    #[inline]
+    pub(crate) fn has_area(&self) -> bool {
+        let [a, b, c] = self.corners;
+        let longest =
+            [a - b, b - c, c - a].map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
+        // below this, the direction of the normal is round-off
+        2.0 * self.size * self.size > 1e-14 * longest
     }
 }
 
@@ -55,7 +61,8 @@ pub(crate) fn heights(
 ) -> [[Option<f64>; 3]; 2] {
     let over = |value: f64, slope: DVec3| {
         let rise = slope.dot(direction);
-        (rise > STEEP * slope.length()).then(|| -value / rise)
+        let steep = rise > 0.0 && rise * rise > STEEP * STEEP * slope.length_squared();
+        steep.then(|| -value / rise)
     };
     let corner = |a: usize| over((frame.centroid - frame.corners[a]).dot(normals[a]), normals[a]);
     let edge = |c: usize| {
@@ -78,23 +85,22 @@ pub(crate) fn height(
     side.sign() * beyond.fold(settings.floor * unit, f64::max)
 }
 
-/// The apices of all faces, over their centroids.
+/// The apices of a face of this kind, over its centroid.
+#[inline]
 pub(crate) fn apices(
-    mesh: &TriMesh,
-    frames: &FaceMap<FaceFrame>,
-    normals: &VertexMap<DVec3>,
-    blocks: &EdgeMap<EdgeBlock>,
-    kinds: &FaceMap<Convexity>,
+    frame: &FaceFrame,
+    kind: Convexity,
+    normals: [DVec3; 3],
+    blocks: [&EdgeBlock; 3],
     settings: &ApexSettings,
-) -> FaceMap<Apices> {
-    frames.map(|face, frame| {
-        let corner_normals = corner_normals(mesh, normals, face);
-        let heights = heights(frame, frame.normal, corner_normals, blocks_of(mesh, blocks, face));
-        Side::BOTH.map(|side| {
-            kinds[face]
-                .has(side)
-                .then(|| frame.centroid + frame.normal * height(frame, &heights, side, settings))
-        })
+) -> Apices {
+    if kind == Convexity::Zero {
+        return [None; 2];
+    }
+    let heights = heights(frame, frame.normal, normals, blocks);
+    Side::BOTH.map(|side| {
+        let over = || frame.centroid + frame.normal * height(frame, &heights, side, settings);
+        kind.has(side).then(over)
     })
 }
 
@@ -112,8 +118,8 @@ pub(crate) fn corner_normals(
 #[inline]
 pub(crate) fn blocks_of<'a>(
     mesh: &TriMesh,
-    blocks: &'a EdgeMap<EdgeBlock>,
+    edges: &'a EdgeMap<EdgeData>,
     face: FaceId,
 ) -> [&'a EdgeBlock; 3] {
-    [1, 2, 0].map(|start| &blocks[mesh.topology().edge(face.halfedge(start))])
+    [1, 2, 0].map(|start| &edges[mesh.topology().edge(face.halfedge(start))].block)
 }

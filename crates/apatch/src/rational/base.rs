@@ -1,9 +1,5 @@
 //! The function on the triangle itself: layer 0 of a face's tetrahedra.
 
-use glam::DVec3;
-
-use super::block::EdgeBlock;
-
 /// The other two corners, counter-clockwise.
 #[inline]
 pub(crate) const fn others(corner: usize) -> [usize; 2] {
@@ -35,16 +31,16 @@ pub struct Split {
 }
 
 impl BaseLayer {
-    /// From the weights on the edges, and the blocks of the edges by opposite corner.
-    pub(crate) fn new(
-        e: [[f64; 2]; 3],
-        corners: &[DVec3; 3],
-        centroid: DVec3,
-        blocks: [&EdgeBlock; 3],
-        split: bool,
-    ) -> Self {
-        let g = std::array::from_fn(|c| blocks[c].at(corners[c]));
-        Self { e, g, split: split.then(|| Split::new(&e, blocks.map(|b| b.at(centroid)))) }
+    /// From the weights on the edges and the middle weights by opposite corner.
+    #[inline]
+    pub(crate) fn new(e: [[f64; 2]; 3], g: [f64; 3], split: bool) -> Self {
+        Self { e, g, split: split.then(|| Split::new(&e, &g)) }
+    }
+
+    /// `e_ab` and `e_ac` for each corner `a`, `b` and `c` following it.
+    #[inline]
+    pub(crate) const fn edge_weights(&self) -> &[[f64; 2]; 3] {
+        &self.e
     }
 
     /// The weight of `V_a V_a V_b`.
@@ -88,19 +84,7 @@ impl BaseLayer {
     /// The value of [`rational`](Self::rational) alone.
     #[inline]
     fn rational_value(&self, x: [f64; 3]) -> f64 {
-        let edge = |a: usize| {
-            let [b, c] = others(a);
-            3.0 * x[a] * x[a] * (x[b] * self.e[a][0] + x[c] * self.e[a][1])
-        };
-        let edges = edge(0) + edge(1) + edge(2);
-        let s = [x[1] * x[2], x[2] * x[0], x[0] * x[1]];
-        let total = s[0] + s[1] + s[2];
-        if total == 0.0 {
-            return edges;
-        }
-        let (product, share) = (x[0] * s[0], 1.0 / total);
-        let mean = (self.g[0] * s[0] + self.g[1] * s[1] + self.g[2] * s[2]) * share;
-        edges + 6.0 * product * mean
+        self.rational(x).0
     }
 
     /// Value and derivatives, as a homogeneous cubic in the three coordinates.
@@ -113,6 +97,24 @@ impl BaseLayer {
         }
     }
 
+    /// As [`jet`](Self::jet) for several points side by side: the same bits.
+    #[inline]
+    pub(crate) fn jets<const N: usize>(&self, x: &[[f64; N]; 3]) -> ([f64; N], [[f64; N]; 3]) {
+        let (mut values, mut slopes) = ([0.0; N], [[0.0; N]; 3]);
+        let mut set = |i: usize, (value, [s0, s1, s2]): (f64, [f64; 3])| {
+            values[i] = value;
+            (slopes[0][i], slopes[1][i], slopes[2][i]) = (s0, s1, s2);
+        };
+        match &self.split {
+            None => (0..N).for_each(|i| set(i, self.rational([x[0][i], x[1][i], x[2][i]]))),
+            Some(split) => (0..N).for_each(|i| {
+                let x = [x[0][i], x[1][i], x[2][i]];
+                set(i, self.third(split, third_of(x), x));
+            }),
+        }
+        (values, slopes)
+    }
+
     /// The denominator of the rational form.
     #[inline]
     pub(crate) fn denominator(x: [f64; 3]) -> f64 {
@@ -122,31 +124,29 @@ impl BaseLayer {
     /// `Σ 3 x_a² x_b e_ab + 6 Σ g_c x_c S_c² / ΣS_c` with `S_c = x_a x_b`; as
     /// `x_c S_c = x_0 x_1 x_2` the second term is `6 x_0 x_1 x_2` times a mean of the `g_c`.
     /// Where the denominator vanishes, so does the term with its derivatives.
-    #[inline]
+    #[inline(always)]
     fn rational(&self, x: [f64; 3]) -> (f64, [f64; 3]) {
-        let (mut value, mut slopes) = (0.0, [0.0; 3]);
-        for (a, &[e_ab, e_ac]) in self.e.iter().enumerate() {
-            let [b, c] = others(a);
-            let (sum, square) = (x[b] * e_ab + x[c] * e_ac, 3.0 * x[a] * x[a]);
-            value += square * sum;
-            slopes[a] += 6.0 * x[a] * sum;
-            slopes[b] += square * e_ab;
-            slopes[c] += square * e_ac;
-        }
+        let ([e0, e1, e2], g) = (&self.e, &self.g);
+        let sums =
+            [x[1] * e0[0] + x[2] * e0[1], x[2] * e1[0] + x[0] * e1[1], x[0] * e2[0] + x[1] * e2[1]];
+        let squares = [3.0 * x[0] * x[0], 3.0 * x[1] * x[1], 3.0 * x[2] * x[2]];
+        let edges = squares[0] * sums[0] + squares[1] * sums[1] + squares[2] * sums[2];
         let s = [x[1] * x[2], x[2] * x[0], x[0] * x[1]];
         let total = s[0] + s[1] + s[2];
-        if total == 0.0 {
-            return (value, slopes);
-        }
+        let share = if total == 0.0 { 0.0 } else { 1.0 / total };
         let product = x[0] * s[0];
-        let share = 1.0 / total;
-        let mean = (self.g[0] * s[0] + self.g[1] * s[1] + self.g[2] * s[2]) * share;
-        for a in 0..3 {
-            let [b, c] = others(a);
-            let turn = ((self.g[b] - mean) * x[c] + (self.g[c] - mean) * x[b]) * share;
-            slopes[a] += 6.0 * (s[a] * mean + product * turn);
-        }
-        (value + 6.0 * product * mean, slopes)
+        let mean = (g[0] * s[0] + g[1] * s[1] + g[2] * s[2]) * share;
+        let d = [g[0] - mean, g[1] - mean, g[2] - mean];
+        let part = product * share;
+        let slopes = [
+            6.0 * (x[0] * sums[0] + s[0] * mean + part * (d[1] * x[2] + d[2] * x[1]))
+                + (squares[1] * e1[1] + squares[2] * e2[0]),
+            6.0 * (x[1] * sums[1] + s[1] * mean + part * (d[2] * x[0] + d[0] * x[2]))
+                + (squares[2] * e2[1] + squares[0] * e0[0]),
+            6.0 * (x[2] * sums[2] + s[2] * mean + part * (d[0] * x[1] + d[1] * x[0]))
+                + (squares[0] * e0[1] + squares[1] * e1[0]),
+        ];
+        (edges + 6.0 * product * mean, slopes)
     }
 
     /// The cubic on the third opposite to the corner `c`. Always inlined, so that the slopes cost nothing
@@ -187,8 +187,14 @@ fn third_of(x: [f64; 3]) -> usize {
 }
 
 impl Split {
-    /// The C1 cubic on the three thirds \[XHB01 4.2\]; `m` in the thirds, by opposite corner.
-    fn new(e: &[[f64; 2]; 3], m: [f64; 3]) -> Self {
+    /// The C1 cubic on the three thirds \[XHB01 4.2\]. The weights `m` are those of the edges'
+    /// blocks at `C`, a third of the way from the middle of the edge to the corner.
+    #[inline]
+    fn new(e: &[[f64; 2]; 3], g: &[f64; 3]) -> Self {
+        let m: [f64; 3] = std::array::from_fn(|c| {
+            let [a, b] = others(c);
+            (e[a][0] + e[b][1] + g[c]) / 3.0
+        });
         let d = e.map(|[e_ab, e_ac]| (e_ab + e_ac) / 3.0);
         let r = std::array::from_fn(|a| {
             let [b, c] = others(a);
@@ -204,8 +210,7 @@ mod tests {
 
     fn layer(split: bool) -> BaseLayer {
         let e = [[0.3, -0.7], [0.2, 0.9], [-0.4, 0.1]];
-        let m = [0.5, -0.2, 0.8];
-        BaseLayer { e, g: [0.4, -0.3, 0.6], split: split.then(|| Split::new(&e, m)) }
+        BaseLayer::new(e, [0.4, -0.3, 0.6], split)
     }
 
     /// Value and gradient agree on the lines from the corners to the centroid.

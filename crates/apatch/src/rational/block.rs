@@ -1,9 +1,6 @@
 //! The building block of all weights next to an edge.
 
-use basemesh::{EdgeMap, TriMesh, VertexMap};
 use glam::DVec3;
-
-use super::kinds::{EdgeData, sorted_ends};
 
 /// The affine function `N_ab` of an edge `ab`: at any point `X` it is the cubic weight of
 /// `p_a p_b X` \[XHB01 (4.10)-(4.12)\].
@@ -19,7 +16,8 @@ pub(crate) struct EdgeBlock {
 }
 
 impl EdgeBlock {
-    fn new(ends: [DVec3; 2], normals: [DVec3; 2], weights: [f64; 2]) -> Self {
+    #[inline]
+    pub(crate) fn new(ends: [DVec3; 2], normals: [DVec3; 2], weights: [f64; 2]) -> Self {
         let [a, b] = ends;
         let chord = a - b;
         let turn = chord * (3.0 * (weights[0] - weights[1]) / chord.length_squared());
@@ -35,18 +33,6 @@ impl EdgeBlock {
     pub(crate) fn at(&self, x: DVec3) -> f64 {
         self.value + self.gradient.dot(x - self.middle)
     }
-}
-
-/// The block of every edge.
-pub(crate) fn blocks(
-    mesh: &TriMesh,
-    normals: &VertexMap<DVec3>,
-    edges: &EdgeMap<EdgeData>,
-) -> EdgeMap<EdgeBlock> {
-    edges.map(|edge, data| {
-        let ends = sorted_ends(mesh, edge);
-        EdgeBlock::new(ends.map(|v| mesh.position(v)), ends.map(|v| normals[v]), data.weights)
-    })
 }
 
 #[cfg(test)]

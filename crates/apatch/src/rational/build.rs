@@ -5,15 +5,15 @@ use glam::DVec3;
 
 use super::apex::{blocks_of, corner_normals, height, heights};
 use super::base::BaseLayer;
-use super::edge::{EdgePatch, EdgeSide, places};
-use super::face::{FacePatch, FaceSide};
-use super::free_weight::{Datum, bounded, neighbour_fit, wanted};
+use super::edge::{EdgeRecord, EdgeSide, left_weights, other_apices, places};
+use super::face::{FaceRecord, FaceSide};
+use super::free_weight::{Datum, bounded, least, neighbour_fit, wanted};
 use super::hull::Hull;
 use super::kinds::{Convexity, Side};
 use super::repair::Repaired;
 use super::report::{InvalidEdge, KindCounts, Report};
-use super::settings::Settings;
-use super::sheet::{Raise, edge_raise, face_bound, has_wrong_sign};
+use super::settings::{Settings, SheetSettings};
+use super::sheet::{FaceGrid, Raise, edge_raise, face_bound, has_wrong_sign};
 use super::surface::RationalSurface;
 
 /// All weights over a hull.
@@ -22,10 +22,13 @@ pub(crate) fn surface(repaired: Repaired, settings: &Settings) -> RationalSurfac
     // tensions belong to the faces that were given: a step of Loop's scheme makes four of each
     let given = |face: FaceId| face.index() >> (2 * repaired.loop_steps);
     let tension = |face| settings.shape.of(given(face));
-    let faces =
-        FaceMap::from_fn(hull.kinds.len(), |face| face_patch(hull, face, tension(face), settings));
-    let edges = EdgeMap::from_fn(hull.edges.len(), |edge| edge_patch(hull, &faces, edge));
-    let report = first_report(&repaired, &faces, &edges);
+    let grid = FaceGrid::new(settings.sheet.grid);
+    let faces = FaceMap::from_fn(hull.faces.len(), |face| {
+        face_record(hull, face, tension(face), &grid, settings)
+    });
+    let edges =
+        EdgeMap::from_fn(hull.edges.len(), |edge| edge_record(hull, &faces, edge, &settings.sheet));
+    let report = first_report(&repaired, &faces, &edges, settings.sheet.margin);
     let Hull { mesh, normals, .. } = repaired.hull;
     let mut surface = RationalSurface { mesh, normals, faces, edges, report };
     sweep(&mut surface, settings);
@@ -33,48 +36,51 @@ pub(crate) fn surface(repaired: Repaired, settings: &Settings) -> RationalSurfac
 }
 
 /// One face with its tetrahedra.
-pub(crate) fn face_patch(
+fn face_record(
     hull: &Hull,
     face: FaceId,
     tension: f64,
+    grid: &FaceGrid,
     settings: &Settings,
-) -> FacePatch {
-    let frame = &hull.frames[face];
-    let convexity = hull.kinds[face];
-    let blocks = blocks_of(&hull.mesh, &hull.blocks, face);
+) -> FaceRecord {
+    let frame = hull.frame(face);
+    let convexity = hull.faces[face].kind;
+    let blocks = blocks_of(&hull.mesh, &hull.edges, face);
     let normals = corner_normals(&hull.mesh, &hull.normals, face);
     let e = edge_weights(hull, face);
-    let base = |split| BaseLayer::new(e, &frame.corners, frame.centroid, blocks, split);
-    let mut layer0 = base(settings.always_split || convexity == Convexity::Nonconvex);
-    let mut apices = hull.apices[face];
+    let g = std::array::from_fn(|c| blocks[c].at(frame.corners[c]));
+    let mut split = settings.always_split || convexity == Convexity::Nonconvex;
+    let mut base = BaseLayer::new(e, g, split);
+    let mut apices = hull.faces[face].apices;
     let known = apices.iter().flatten().next().copied();
     let promoted = known.is_some_and(|apex| {
         let scale = size_of_values(apex, &frame.corners, normals);
-        is_wrong_inside(convexity, &layer0, scale, settings)
+        is_wrong_inside(convexity, &base, scale, settings)
     });
     if promoted {
-        layer0 = base(true);
+        split = true;
+        base = BaseLayer::new(e, g, split);
         // both apices on one line through the centroid, as smoothness asks
         let up = known.map_or(frame.normal, |apex| apex - frame.centroid);
         let direction = up / up.dot(frame.normal);
-        let heights = heights(frame, direction, normals, blocks);
+        let heights = heights(&frame, direction, normals, blocks);
         for side in Side::BOTH {
-            let height = height(frame, &heights, side, &settings.apices);
+            let height = height(&frame, &heights, side, &settings.apices);
             apices[side.index()].get_or_insert(frame.centroid + direction * height);
         }
     }
+    let opposite = opposite(hull, face);
     let sides = Side::BOTH.map(|side| {
         let apex = apices[side.index()]?;
-        let height = (apex - frame.centroid).dot(frame.normal);
-        let mut s = FaceSide::new(apex, height, &frame.corners, normals, blocks, &layer0);
-        s.neighbours = neighbour_fit(&layer0, &s, &frame.corners, frame.size, opposite(hull, face));
-        s.bound = face_bound(&layer0, &s, side, &settings.sheet);
-        let wanted = wanted(&s, side.sign(), settings.rule);
+        let mut s = FaceSide::new(apex, &frame.corners, normals, blocks, &base);
+        s.neighbours = neighbour_fit(&base, &s, &frame, &opposite);
+        s.bound = face_bound(&base, &s, side, grid, &settings.sheet);
+        let wanted = wanted(&base, &s, side.sign(), settings.rule);
         let free = bounded(wanted, s.bound, settings.sheet.margin, s.scale(), tension);
-        s.set_free(side.sign() * free);
-        Some(s)
+        s.free = side.sign() * free;
+        Some(s.record())
     });
-    FacePatch { corners: frame.corners, convexity, promoted, base: layer0, sides }
+    FaceRecord { e, g, convexity, promoted, split, sides }
 }
 
 /// [`FaceSide::scale`] of the tetrahedron with this apex.
@@ -115,45 +121,44 @@ fn edge_weights(hull: &Hull, face: FaceId) -> [[f64; 2]; 3] {
 }
 
 /// The vertices opposite to the edges of a face, with their gradients.
-fn opposite(hull: &Hull, face: FaceId) -> impl Iterator<Item = Datum> {
+fn opposite(hull: &Hull, face: FaceId) -> [Option<Datum>; 3] {
     let topology = hull.mesh.topology();
-    face.halfedges().into_iter().filter_map(|h| topology.twin(h)).map(|twin| {
-        let vertex = topology.origin(twin.previous());
-        (hull.mesh.position(vertex), hull.normals[vertex])
+    face.halfedges().map(|h| {
+        let vertex = topology.origin(topology.twin(h)?.previous());
+        Some((hull.mesh.position(vertex), hull.normals[vertex]))
     })
 }
 
-/// One edge with its tetrahedra.
-pub(crate) fn edge_patch(hull: &Hull, faces: &FaceMap<FacePatch>, edge: EdgeId) -> EdgePatch {
+/// One edge with the places of its tetrahedra.
+fn edge_record(
+    hull: &Hull,
+    faces: &FaceMap<FaceRecord>,
+    edge: EdgeId,
+    settings: &SheetSettings,
+) -> EdgeRecord {
     let topology = hull.mesh.topology();
-    let [i, j] = topology.edge_vertices(edge);
-    let data = &hull.edges[edge];
-    let [lower, higher] = data.weights;
+    let convexity = hull.edges[edge].convexity;
     let places = places(topology, topology.canonical(edge));
-    let sides = Side::BOTH.map(|side| {
-        let places = places.filter(|_| data.convexity.has(side))?;
-        let patches = places.map(|p| &faces[p.face]);
-        let [Some(left), Some(right)] = patches.map(|p| p.sides[side.index()].as_ref()) else {
-            return None;
-        };
-        let mut s = EdgeSide::new(places, patches, [left, right]);
-        // a promoted face has another apex only on a side where its edges need no tetrahedron
-        let wedge = hull.wedges[edge][side.index()]?;
-        (s.opening, s.angle) = (wedge.opening, wedge.angle);
-        Some(s)
-    });
-    EdgePatch {
-        ends: [i, j].map(|v| hull.mesh.position(v)),
-        convexity: data.convexity,
-        weights: if i < j { [lower, higher] } else { [higher, lower] },
-        sides,
+    let mut record = EdgeRecord { convexity, single: [true; 2], apices: [None; 2] };
+    for side in Side::BOTH.into_iter().filter(|&side| convexity.has(side)) {
+        let Some(places) = places else { continue };
+        let sides = places.map(|p| faces[p.face].sides[side.index()].as_ref().map(|s| s.apex));
+        let [Some(left), Some(right)] = sides else { continue };
+        let corners = places.map(|p| hull.mesh.triangle(p.face));
+        let apices = other_apices(places, corners, [left, right]);
+        record.apices[side.index()] = Some(apices);
+        let raise = EdgeSide::of_faces(places, faces, side, apices)
+            .map(|s| edge_raise(&s, left_weights(places, faces), side, settings));
+        record.single[side.index()] = raise.is_none_or(|raise| raise == Raise::Nothing);
     }
+    record
 }
 
 fn first_report(
     repaired: &Repaired,
-    faces: &FaceMap<FacePatch>,
-    edges: &EdgeMap<EdgePatch>,
+    faces: &FaceMap<FaceRecord>,
+    edges: &EdgeMap<EdgeRecord>,
+    margin: f64,
 ) -> Report {
     let hull = &repaired.hull;
     let topology = hull.mesh.topology();
@@ -163,61 +168,79 @@ fn first_report(
         side,
         angle,
     };
-    let face_sides = || faces.iter().flat_map(|(_, f)| Side::BOTH.map(|s| (s, f.sides[s.index()])));
-    let count = |sides: &[Option<EdgeSide>; 2]| sides.iter().flatten().count();
-    Report {
-        faces: KindCounts::of(faces.iter().map(|(_, f)| f.convexity)),
-        edges: KindCounts::of(edges.iter().map(|(_, e)| e.convexity)),
-        face_tetrahedra: face_sides().filter(|(_, s)| s.is_some()).count(),
-        edge_tetrahedra: edges.iter().map(|(_, e)| count(&e.sides)).sum(),
+    let mut report = Report {
+        faces: KindCounts::of(hull.faces.as_slice().iter().map(|f| f.kind)),
+        edges: KindCounts::of(hull.edges.as_slice().iter().map(|e| e.convexity)),
         normals: repaired.normals,
         loop_steps: repaired.loop_steps,
         moved_apices: hull.moved,
         invalid_edges: hull.invalid.iter().map(invalid).collect(),
         behind: hull.behind.iter().map(|f| f.index()).collect(),
-        promoted: faces.iter().filter(|(_, f)| f.promoted).map(|(f, _)| f.index()).collect(),
         ..Report::default()
+    };
+    for (face, record) in faces.iter() {
+        report.face_tetrahedra += record.sides.iter().flatten().count();
+        report.bounded_faces += bounded_sides(record, margin);
+        if record.promoted {
+            report.promoted.push(face.index());
+        }
     }
+    for (_, record) in edges.iter() {
+        report.edge_tetrahedra += record.apices.iter().flatten().count();
+    }
+    report
+}
+
+/// Number of tetrahedra of a face whose free weight is the least one that the bound allows.
+fn bounded_sides(face: &FaceRecord, margin: f64) -> usize {
+    let bounded = |side: &Side| {
+        let s = face.sides[side.index()].as_ref();
+        s.is_some_and(|s| side.sign() * s.free == least(s.bound, margin, s.scale()))
+    };
+    Side::BOTH.iter().filter(|side| bounded(side)).count()
 }
 
 /// Raises free weights until every transversal of every edge crosses the surface once
 /// \[XHB01 Step 6\]*: edge by edge with the weights as they are.
 fn sweep(surface: &mut RationalSurface, settings: &Settings) {
-    let raise_of = |patch: &EdgePatch, side: Side| match &patch.sides[side.index()] {
-        Some(s) => edge_raise(s, patch.weights, side, &settings.sheet),
-        None => Raise::Nothing,
-    };
-    let wants = |patch: &EdgePatch| Side::BOTH.map(|side| raise_of(patch, side));
-    let mut asks = surface.edges.map(|_, patch| wants(patch));
-    let mut raised = vec![[false; 2]; surface.edges.len()];
+    let is_open = |surface: &RationalSurface, edge: EdgeId| surface.edges[edge].single != [true; 2];
+    let edges = surface.mesh.topology().edges();
+    let mut open: Vec<EdgeId> = edges.filter(|&edge| is_open(surface, edge)).collect();
+    let mut raised = std::collections::BTreeSet::new();
     for _ in 0..settings.sheet.max_sweeps {
-        let asking: Vec<EdgeId> = asks
-            .iter()
-            .filter(|(_, a)| a.iter().any(|r| matches!(r, Raise::By(_))))
-            .map(|(edge, _)| edge)
-            .collect();
-        if asking.is_empty() {
-            break;
-        }
-        surface.report.sweeps += 1;
         let mut touched = Vec::new();
-        for edge in asking {
+        for &edge in &open {
             for side in Side::BOTH {
-                if let Raise::By(by) = raise_of(&surface.edges[edge], side) {
+                if let Raise::By(by) = raise_of(surface, edge, side, settings) {
                     touched.extend(raise(surface, edge, side, by, settings.sheet.margin));
-                    raised[edge.index()][side.index()] = true;
+                    raised.insert((edge, side));
                 }
             }
         }
+        if touched.is_empty() {
+            break;
+        }
+        surface.report.sweeps += 1;
         touched.sort_unstable();
         touched.dedup();
-        for edge in touched {
-            asks[edge] = wants(&surface.edges[edge]);
+        for &edge in &touched {
+            surface.edges[edge].single =
+                Side::BOTH.map(|side| raise_of(surface, edge, side, settings) == Raise::Nothing);
         }
+        open.extend(touched);
+        open.sort_unstable();
+        open.dedup();
+        open.retain(|&edge| is_open(surface, edge));
     }
-    surface.report.raised_edges = raised.iter().flatten().filter(|r| **r).count();
-    let left = asks.iter().filter(|(_, a)| a.iter().any(|r| *r != Raise::Nothing));
-    surface.report.not_single = left.map(|(edge, _)| edge.index()).collect();
+    surface.report.raised_edges = raised.len();
+    surface.report.not_single = open.into_iter().map(EdgeId::index).collect();
+}
+
+fn raise_of(surface: &RationalSurface, edge: EdgeId, side: Side, settings: &Settings) -> Raise {
+    match surface.edge_side(edge, side) {
+        Some(s) => edge_raise(&s, surface.edge_weights(edge), side, &settings.sheet),
+        None => Raise::Nothing,
+    }
 }
 
 /// Raises the free weights of both faces of an edge, and returns all edges that see them.
@@ -236,22 +259,8 @@ fn raise(
         .fold(0.0, |scale: f64, s| scale.max(s.scale()));
     for place in both {
         if let Some(s) = &mut surface.faces[place.face].sides[side.index()] {
-            s.set_free(s.free + side.sign() * (by + margin * scale));
+            s.free += side.sign() * (by + margin * scale);
         }
     }
-    let mut seen: Vec<EdgeId> =
-        both.iter().flat_map(|p| p.face.halfedges()).map(|h| topology.edge(h)).collect();
-    seen.sort_unstable();
-    seen.dedup();
-    for &edge in &seen {
-        let Some(both) = places(topology, topology.canonical(edge)) else { continue };
-        let sides = both.map(|p| surface.faces[p.face].sides[side.index()]);
-        let ([Some(left), Some(right)], Some(s)) =
-            (&sides, &mut surface.edges[edge].sides[side.index()])
-        else {
-            continue;
-        };
-        s.update(both, [left, right]);
-    }
-    seen
+    both.iter().flat_map(|p| p.face.halfedges()).map(|h| topology.edge(h)).collect()
 }

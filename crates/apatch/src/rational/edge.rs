@@ -1,9 +1,9 @@
 //! An edge: the one or two tetrahedra that fill the gap between those of its faces.
 
-use basemesh::{FaceId, HalfedgeId, Topology};
+use basemesh::{FaceId, FaceMap, HalfedgeId, Topology};
 use glam::DVec3;
 
-use super::face::{FacePatch, FaceSide};
+use super::face::{FaceRecord, FaceSide, side_of};
 use super::kinds::{Convexity, Side};
 use crate::cubic_root::RayCubic;
 use crate::tetrahedron::Tetrahedron;
@@ -51,11 +51,16 @@ pub struct EdgeSide {
     pub left: FaceShare,
     /// From the right face, `l`.
     pub right: FaceShare,
-    /// Angle between the faces on this side, in radians.
-    pub opening: f64,
-    /// What the tetrahedra of the two faces leave of it: the angle of this tetrahedron. The
-    /// tetrahedron is valid if this is above zero and below π.
-    pub angle: f64,
+}
+
+/// What is stored of an edge: the rest follows from its faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct EdgeRecord {
+    pub(crate) convexity: Convexity,
+    /// Whether all transversals on a side are known to cross the surface once.
+    pub(crate) single: [bool; 2],
+    /// Of each tetrahedron, [`FaceShare::other_apex`] of the left and the right face.
+    pub(crate) apices: [Option<[[f64; 4]; 2]>; 2],
 }
 
 /// Where an edge lies in one of its faces, as corners of that face.
@@ -78,60 +83,78 @@ pub(crate) fn places(topology: &Topology, canonical: HalfedgeId) -> Option<[Plac
     Some([place(canonical, along(canonical)), place(twin, [i, j])])
 }
 
-impl FaceShare {
-    #[inline]
-    fn new(side: &FaceSide, place: Place, corners: &[DVec3; 3], other: &FaceSide) -> Self {
-        let [i, j] = place.ends;
-        let k = place.third;
-        let tetrahedron = Tetrahedron::new([corners[k], corners[i], corners[j], side.apex]);
-        let mut share = Self {
-            apex: side.apex,
-            l1v: [side.l1v[i], side.l1v[j]],
-            l1e: side.l1e[k],
-            other_apex: tetrahedron.barycentric(other.apex),
-            ..Self::default()
-        };
-        share.set_upper(side, place);
-        share
-    }
+/// The apex of each face in barycentric coordinates of the other's tetrahedron:
+/// [`FaceShare::other_apex`] of the left and the right face.
+#[inline]
+pub(crate) fn other_apices(
+    places: [Place; 2],
+    corners: [[DVec3; 3]; 2],
+    apices: [DVec3; 2],
+) -> [[f64; 4]; 2] {
+    [0, 1].map(|f| {
+        let ([i, j], k) = (places[f].ends, places[f].third);
+        let c = &corners[f];
+        Tetrahedron::new([c[k], c[i], c[j], apices[f]]).barycentric(apices[1 - f])
+    })
+}
 
-    /// Layers 2 and 3 and what depends on them \[XHB01 4.3, Step 4\]*.
+impl FaceShare {
+    /// All weights, `x` the other apex \[XHB01 4.3, Step 4\]*.
     #[inline]
-    fn set_upper(&mut self, side: &FaceSide, place: Place) {
-        let [i, j] = place.ends;
-        let k = place.third;
-        let x = self.other_apex;
-        self.l2v = [side.l2v[i], side.l2v[j]];
-        self.free = side.free;
-        self.middle = [
-            x[0] * side.l1e[j] + x[1] * side.l1v[i] + x[2] * side.l1e[k] + x[3] * side.l2v[i],
-            x[0] * side.l1e[i] + x[1] * side.l1e[k] + x[2] * side.l1v[j] + x[3] * side.l2v[j],
-        ];
-        self.inner =
-            x[0] * side.l2v[k] + x[1] * side.l2v[i] + x[2] * side.l2v[j] + x[3] * side.free;
+    fn new(side: &FaceSide, place: Place, x: [f64; 4]) -> Self {
+        let ([i, j], k) = (place.ends, place.third);
+        let (v, e, two) = (&side.l1v, &side.l1e, &side.l2v);
+        Self {
+            apex: side.apex,
+            l1v: [v[i], v[j]],
+            l1e: e[k],
+            l2v: [two[i], two[j]],
+            free: side.free,
+            other_apex: x,
+            middle: [
+                x[0] * e[j] + x[1] * v[i] + x[2] * e[k] + x[3] * two[i],
+                x[0] * e[i] + x[1] * e[k] + x[2] * v[j] + x[3] * two[j],
+            ],
+            inner: x[0] * two[k] + x[1] * two[i] + x[2] * two[j] + x[3] * side.free,
+        }
     }
 }
 
+/// The weights on an edge, `e_ij` and `e_ji`, as its left face has them.
+#[inline]
+pub(crate) fn left_weights(places: [Place; 2], faces: &FaceMap<FaceRecord>) -> [f64; 2] {
+    let (e, [i, j]) = (&faces[places[0].face].e, places[0].ends);
+    [e[i][0], e[j][1]]
+}
+
 impl EdgeSide {
-    /// The tetrahedron between the two faces' on one side, `places` in the left and right face.
+    /// From the records of its faces; `None` if one of them has no tetrahedron on this side.
     #[inline]
-    pub(crate) fn new(places: [Place; 2], faces: [&FacePatch; 2], sides: [&FaceSide; 2]) -> Self {
-        let share = |f: usize| FaceShare::new(sides[f], places[f], &faces[f].corners, sides[1 - f]);
-        Self { left: share(0), right: share(1), opening: 0.0, angle: 0.0 }
+    pub(crate) fn of_faces(
+        places: [Place; 2],
+        faces: &FaceMap<FaceRecord>,
+        side: Side,
+        apices: [[f64; 4]; 2],
+    ) -> Option<Self> {
+        let [left, right] = places.map(|p| {
+            let face = &faces[p.face];
+            face.sides[side.index()].as_ref().map(|s| face.side(s))
+        });
+        Some(Self::new(places, [&left?, &right?], apices))
     }
 
-    /// Takes over changed free weights of the faces.
+    /// The tetrahedron between those of the two faces on one side, `places` in the left and right
+    /// face, `apices` as [`other_apices`] makes them.
     #[inline]
-    pub(crate) fn update(&mut self, places: [Place; 2], sides: [&FaceSide; 2]) {
-        self.left.set_upper(sides[0], places[0]);
-        self.right.set_upper(sides[1], places[1]);
-    }
-
-    /// Whether the tetrahedron is neither inverted nor folded.
-    #[inline]
-    #[must_use]
-    pub fn is_valid(&self) -> bool {
-        self.angle > 0.0 && self.angle < std::f64::consts::PI
+    pub(crate) fn new(
+        places: [Place; 2],
+        sides: [&FaceSide; 2],
+        [left, right]: [[f64; 4]; 2],
+    ) -> Self {
+        Self {
+            left: FaceShare::new(sides[0], places[0], left),
+            right: FaceShare::new(sides[1], places[1], right),
+        }
     }
 
     /// The tetrahedron: right apex, ends, left apex.
@@ -262,7 +285,7 @@ impl EdgePatch {
     /// The side on which the transversals of a point of the edge run, if they do.
     #[inline]
     pub(crate) fn side_at(&self, base: f64) -> Option<(Side, &EdgeSide)> {
-        let side = if base <= 0.0 { Side::Positive } else { Side::Negative };
+        let side = side_of(base);
         self.sides[side.index()].as_ref().map(|s| (side, s))
     }
 }

@@ -30,8 +30,6 @@ pub struct FacePatch {
 pub struct FaceSide {
     /// The fourth corner.
     pub apex: DVec3,
-    /// Signed height of the apex over the triangle.
-    pub height: f64,
     /// Layer 1: `V_a V_a apex`.
     pub l1v: [f64; 3],
     /// Layer 1: `V_a V_b apex`, by opposite corner.
@@ -42,8 +40,6 @@ pub struct FaceSide {
     pub l2v: [f64; 3],
     /// Layer 3, the free weight: `apex apex apex`.
     pub free: f64,
-    /// The published default of the free weight \[XHB01 (4.13), (4.16)\].
-    pub published: f64,
     /// The free weight that fits the neighbours best.
     pub neighbours: f64,
     /// Single-sheet bound of the face: sign times free weight must be above it. Minus infinity if
@@ -51,12 +47,106 @@ pub struct FaceSide {
     pub bound: f64,
 }
 
+/// What is stored of a face: all that does not follow from the rest. Half of a [`FacePatch`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FaceRecord {
+    /// `e_ab` and `e_ac` for each corner `a`, `b` and `c` following it.
+    pub(crate) e: [[f64; 2]; 3],
+    /// The middle weight as each edge wants it, by opposite corner.
+    pub(crate) g: [f64; 3],
+    pub(crate) convexity: Convexity,
+    pub(crate) promoted: bool,
+    pub(crate) split: bool,
+    pub(crate) sides: [Option<SideRecord>; 2],
+}
+
+/// What is stored of a [`FaceSide`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SideRecord {
+    pub(crate) apex: DVec3,
+    pub(crate) l1v: [f64; 3],
+    pub(crate) l1e: [f64; 3],
+    pub(crate) free: f64,
+    pub(crate) neighbours: f64,
+    pub(crate) bound: f64,
+}
+
+impl FaceRecord {
+    /// With everything that follows from it.
+    #[inline]
+    pub(crate) fn patch(&self, corners: [DVec3; 3]) -> FacePatch {
+        FacePatch {
+            corners,
+            convexity: self.convexity,
+            promoted: self.promoted,
+            base: self.base(),
+            sides: self.sides.each_ref().map(|s| s.as_ref().map(|s| self.side(s))),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn base(&self) -> BaseLayer {
+        BaseLayer::new(self.e, self.g, self.split)
+    }
+
+    /// One of its tetrahedra with everything that follows.
+    #[inline]
+    pub(crate) fn side(&self, s: &SideRecord) -> FaceSide {
+        let fitted = fitted(&s.l1v, &s.l1e, &self.e, &self.g);
+        FaceSide {
+            apex: s.apex,
+            l1v: s.l1v,
+            l1e: s.l1e,
+            fitted,
+            l2v: layer2(fitted, s.free),
+            free: s.free,
+            neighbours: s.neighbours,
+            bound: s.bound,
+        }
+    }
+}
+
+impl SideRecord {
+    /// As [`FaceSide::scale`].
+    #[inline]
+    pub(crate) fn scale(&self) -> f64 {
+        scale(&self.l1v)
+    }
+}
+
+/// The weights `V_a apex` of the quadric that fits layers 0 and 1 best, by the closed form of the
+/// least-squares fit \[XHB01 (4.15)\]*.
+#[inline]
+fn fitted(l1v: &[f64; 3], l1e: &[f64; 3], e: &[[f64; 2]; 3], g: &[f64; 3]) -> [f64; 3] {
+    let mean = (g[0] + g[1] + g[2]) / 3.0;
+    std::array::from_fn(|a| {
+        let [b, c] = others(a);
+        (21.0 * l1v[a] - 3.0 * (l1v[b] + l1v[c]) + 9.0 * (l1e[b] + l1e[c])
+            - 3.0 * l1e[a]
+            - mean
+            - 3.0 * (e[a][0] + e[a][1])
+            - (e[b][1] + e[c][0])
+            + (e[b][0] + e[c][1]))
+            / 20.0
+    })
+}
+
+/// Layer 2 for a free weight: `(2 q_au + f) / 3` \[XHB01 (4.15)\].
+#[inline]
+fn layer2(fitted: [f64; 3], free: f64) -> [f64; 3] {
+    fitted.map(|q| (2.0 * q + free) / 3.0)
+}
+
+#[inline]
+fn scale(l1v: &[f64; 3]) -> f64 {
+    3.0 * l1v.iter().fold(0.0, |m: f64, w| m.max(w.abs()))
+}
+
 impl FaceSide {
-    /// Layer 1 from the normals and blocks, layer 2 by the closed form of the least-squares fit
-    /// \[XHB01 (4.15)\]*; the free weight is the published one.
+    /// Layer 1 from the normals and blocks; the free weight is the published one.
+    #[inline]
     pub(crate) fn new(
         apex: DVec3,
-        height: f64,
         corners: &[DVec3; 3],
         normals: [DVec3; 3],
         blocks: [&EdgeBlock; 3],
@@ -64,49 +154,52 @@ impl FaceSide {
     ) -> Self {
         let l1v: [f64; 3] = std::array::from_fn(|a| (apex - corners[a]).dot(normals[a]) / 3.0);
         let l1e = blocks.map(|b| b.at(apex));
-        let mean = base.middle_weights().iter().sum::<f64>() / 3.0;
-        let e = |a: usize, b: usize| base.edge_weight(a, b);
-        let fitted = std::array::from_fn(|a| {
-            let [b, c] = others(a);
-            (21.0 * l1v[a] - 3.0 * (l1v[b] + l1v[c]) + 9.0 * (l1e[b] + l1e[c])
-                - 3.0 * l1e[a]
-                - mean
-                - 3.0 * (e(a, b) + e(a, c))
-                - (e(b, a) + e(c, a))
-                + (e(b, c) + e(c, b)))
-                / 20.0
-        });
-        let edges: f64 = (0..3).map(|a| e(a, others(a)[0]) + e(a, others(a)[1])).sum();
-        let sum = |v: &[f64; 3]| v[0] + v[1] + v[2];
-        let published = 0.5 * (sum(&l1v) + sum(&l1e)) - 0.2 * (edges + mean);
+        let fitted = fitted(&l1v, &l1e, base.edge_weights(), &base.middle_weights());
         let mut side = Self {
             apex,
-            height,
             l1v,
             l1e,
             fitted,
             l2v: [0.0; 3],
             free: 0.0,
-            published,
-            neighbours: published,
+            neighbours: 0.0,
             bound: f64::NEG_INFINITY,
         };
+        let published = side.published(base);
+        side.neighbours = published;
         side.set_free(published);
         side
     }
 
-    /// Sets the free weight and layer 2 with it: `(2 q_au + f) / 3` \[XHB01 (4.15)\].
+    /// The published default of the free weight \[XHB01 (4.13), (4.16)\].
+    #[inline]
+    #[must_use]
+    pub fn published(&self, base: &BaseLayer) -> f64 {
+        let sum = |v: &[f64; 3]| v[0] + v[1] + v[2];
+        let edges: f64 = base.edge_weights().iter().map(|e| e[0] + e[1]).sum();
+        let mean = sum(&base.middle_weights()) / 3.0;
+        0.5 * (sum(&self.l1v) + sum(&self.l1e)) - 0.2 * (edges + mean)
+    }
+
+    /// Sets the free weight and layer 2 with it.
     #[inline]
     pub(crate) fn set_free(&mut self, free: f64) {
         self.free = free;
-        self.l2v = self.fitted.map(|q| (2.0 * q + free) / 3.0);
+        self.l2v = layer2(self.fitted, free);
+    }
+
+    /// What is stored of it.
+    #[inline]
+    pub(crate) const fn record(&self) -> SideRecord {
+        let &Self { apex, l1v, l1e, free, neighbours, bound, .. } = self;
+        SideRecord { apex, l1v, l1e, free, neighbours, bound }
     }
 
     /// Three times the largest weight next to the face: the size of values of the function here.
     #[inline]
     #[must_use]
     pub fn scale(&self) -> f64 {
-        3.0 * self.l1v.iter().fold(0.0, |m: f64, w| m.max(w.abs()))
+        scale(&self.l1v)
     }
 
     /// Layer 1 at barycentric coordinates of the triangle.
@@ -164,10 +257,16 @@ impl FacePatch {
     /// there; `None` if the point is on the surface (or its side has no tetrahedron).
     #[inline]
     pub(crate) fn side_at(&self, base: f64) -> Option<(Side, &FaceSide)> {
-        let side = if base <= 0.0 { Side::Positive } else { Side::Negative };
+        let side = side_of(base);
         let found = self.sides[side.index()].as_ref();
         found.map(|f| (side, f)).filter(|(_, f)| base.abs() > ON_SURFACE * f.scale())
     }
+}
+
+/// The side to which the transversal of a point with this value goes.
+#[inline]
+pub(crate) fn side_of(base: f64) -> Side {
+    if base <= 0.0 { Side::Positive } else { Side::Negative }
 }
 
 /// Values of the function below this times its size next to the face count as zero.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::apex::FaceFrame;
 use super::base::{BaseLayer, others};
 use super::face::{FaceSide, dot};
 use super::settings::FreeWeightRule;
@@ -74,41 +75,49 @@ impl FittedQuadric {
 pub(crate) fn neighbour_fit(
     base: &BaseLayer,
     side: &FaceSide,
-    corners: &[DVec3; 3],
-    size: f64,
-    opposite: impl Iterator<Item = Datum>,
+    frame: &FaceFrame,
+    opposite: &[Option<Datum>],
 ) -> f64 {
     let quadric = FittedQuadric::new(base, side);
-    let tetrahedron = side.tetrahedron(corners);
+    let tetrahedron = side.tetrahedron(&frame.corners);
     let gradients = tetrahedron.gradients();
-    let pull = PULL / (side.height * side.height);
+    let height = (side.apex - frame.centroid).dot(frame.normal);
+    let pull = PULL / (height * height);
+    let published = side.published(base);
     let (mut products, mut squares) = (0.0, 0.0);
-    for (point, normal) in opposite {
-        let at = tetrahedron.barycentric(point);
+    for &(point, normal) in opposite.iter().flatten() {
+        let at = tetrahedron.barycentric_by(&gradients, point);
         let (value, slopes) = quadric.jet(at);
         // residual and its derivative with respect to the weight, which multiplies w²
-        let (r, c) = (value / size, at[3] * at[3] / size);
+        let (r, c) = (value / frame.size, at[3] * at[3] / frame.size);
         let (rest, turn) = (gradient(slopes, &gradients) - normal, gradients[3] * (2.0 * at[3]));
         products += r * c + rest.dot(turn);
         squares += c * c + turn.length_squared();
     }
     if squares == 0.0 {
-        return side.published;
+        return published;
     }
-    (pull * side.published - products) / (pull + squares)
+    (pull * published - products) / (pull + squares)
 }
 
 /// The free weight times the sign of the side, before any bound.
-pub(crate) fn wanted(side: &FaceSide, sign: f64, rule: FreeWeightRule) -> f64 {
+pub(crate) fn wanted(base: &BaseLayer, side: &FaceSide, sign: f64, rule: FreeWeightRule) -> f64 {
+    let published = sign * side.published(base);
     match rule {
-        FreeWeightRule::Published => sign * side.published,
-        FreeWeightRule::Clamped => (sign * side.neighbours).max(0.5 * sign * side.published),
+        FreeWeightRule::Published => published,
+        FreeWeightRule::Clamped => (sign * side.neighbours).max(0.5 * published),
     }
 }
 
-/// Applies a tension and the bound; `margin` is the distance kept from it.
+/// The least free weight that a bound allows; `margin` is the distance kept from it.
+#[inline]
+pub(crate) fn least(bound: f64, margin: f64, scale: f64) -> f64 {
+    bound + margin * scale
+}
+
+/// Applies a tension and the bound.
 pub(crate) fn bounded(wanted: f64, bound: f64, margin: f64, scale: f64, tension: f64) -> f64 {
-    let least = bound + margin * scale;
+    let least = least(bound, margin, scale);
     let tensed = if tension > 0.0 {
         wanted + tension * scale
     } else if wanted > least && least.is_finite() {

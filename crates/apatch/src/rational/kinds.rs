@@ -1,7 +1,9 @@
 //! Convexity of edges and faces, from the normals at the vertices alone.
 
-use basemesh::{EdgeId, EdgeMap, FaceId, FaceMap, TriMesh, VertexMap};
+use basemesh::{EdgeId, EdgeMap, FaceId, TriMesh, VertexMap};
 use glam::DVec3;
+
+use super::block::EdgeBlock;
 
 /// One of the two sides of the triangulation.
 ///
@@ -81,38 +83,37 @@ impl Convexity {
 }
 
 /// An edge by the weights next to its ends: `[e_ab, e_ba]` with `a` its lower vertex,
-/// `e_ab = (p_b - p_a)·n_a / 3`; and its convexity.
+/// `e_ab = (p_b - p_a)·n_a / 3`; its convexity; and the block of all weights next to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct EdgeData {
     pub(crate) weights: [f64; 2],
     pub(crate) convexity: Convexity,
+    pub(crate) block: EdgeBlock,
 }
 
-/// Weights and convexity of every edge; weights that count as zero are zero \[XHB01 2.2\].
+/// Every edge; weights that count as zero are zero \[XHB01 2.2\].
 pub(crate) fn edges(
     mesh: &TriMesh,
     normals: &VertexMap<DVec3>,
     straight: f64,
 ) -> EdgeMap<EdgeData> {
     EdgeMap::from_fn(mesh.topology().edge_count(), |edge| {
-        let [a, b] = sorted_ends(mesh, edge);
-        let chord = mesh.position(b) - mesh.position(a);
+        let ends = sorted_ends(mesh, edge);
+        let (points, normals) = (ends.map(|v| mesh.position(v)), ends.map(|v| normals[v]));
+        let chord = points[1] - points[0];
         let weight = |direction: DVec3, normal: DVec3| {
             let height = direction.dot(normal);
-            if height.abs() <= straight * (direction.length() * normal.length()) {
-                0.0
-            } else {
-                height / 3.0
-            }
+            let lengths = direction.length_squared() * normal.length_squared();
+            if height * height <= straight * straight * lengths { 0.0 } else { height / 3.0 }
         };
-        let weights = [weight(chord, normals[a]), weight(-chord, normals[b])];
+        let weights = [weight(chord, normals[0]), weight(-chord, normals[1])];
         let convexity = match weights {
             [0.0, 0.0] => Convexity::Zero,
             [x, y] if x <= 0.0 && y <= 0.0 => Convexity::Positive,
             [x, y] if x >= 0.0 && y >= 0.0 => Convexity::Negative,
             _ => Convexity::Nonconvex,
         };
-        EdgeData { weights, convexity }
+        EdgeData { weights, convexity, block: EdgeBlock::new(points, normals, weights) }
     })
 }
 
@@ -122,10 +123,9 @@ pub(crate) fn sorted_ends(mesh: &TriMesh, edge: EdgeId) -> [basemesh::VertexId; 
     if a < b { [a, b] } else { [b, a] }
 }
 
-/// Convexity of every face.
-pub(crate) fn faces(mesh: &TriMesh, edges: &EdgeMap<EdgeData>) -> FaceMap<Convexity> {
+/// Convexity of a face.
+#[inline]
+pub(crate) fn of_face(mesh: &TriMesh, edges: &EdgeMap<EdgeData>, face: FaceId) -> Convexity {
     let topology = mesh.topology();
-    FaceMap::from_fn(topology.face_count(), |face: FaceId| {
-        Convexity::of_face(face.halfedges().map(|h| edges[topology.edge(h)].convexity))
-    })
+    Convexity::of_face(face.halfedges().map(|h| edges[topology.edge(h)].convexity))
 }

@@ -3,9 +3,10 @@
 use basemesh::{EdgeId, FaceId};
 use glam::DVec3;
 
-use super::edge::{EdgePatch, EdgeSide};
-use super::face::{FacePatch, FaceSide, dot};
-use super::kinds::{Convexity, Side};
+use super::edge::EdgePatch;
+use super::face::{FacePatch, ON_SURFACE, dot, side_of};
+use super::kinds::Side;
+use super::lanes::{EdgeSolver, FaceFeet, FaceSolver, LANES, Queue};
 use super::surface::RationalSurface;
 use crate::cubic_root::RayCubic;
 use crate::tetrahedron::gradient;
@@ -38,41 +39,75 @@ impl FacePatch {
     #[inline]
     #[must_use]
     pub fn point(&self, x: [f64; 3]) -> Option<SurfacePoint> {
-        let foot = self.corners[0] * x[0] + self.corners[1] * x[1] + self.corners[2] * x[2];
-        let (v0, s0) = self.base.jet(x);
-        let Some((side, s)) = self.side_at(v0) else {
-            return Some(self.on_mesh(foot, x));
+        let feet = FaceFeet::new(&self.base, &[x]);
+        let Some((side, _)) = self.side_at(feet.value[0]) else { return Some(self.on_mesh(x)) };
+        let mut found = [None];
+        FaceSolver::new(self, side)?.points(&feet, &mut found);
+        found[0]
+    }
+
+    /// Appends the points for many barycentric coordinates: the same as one by one, bit for bit, in
+    /// less time.
+    pub fn points(&self, at: &[[f64; 3]], out: &mut Vec<Option<SurfacePoint>>) {
+        let first = out.len();
+        out.resize(first + at.len(), None);
+        let out = &mut out[first..];
+        let solvers = Side::BOTH.map(|side| FaceSolver::new(self, side));
+        let mut queues = [Queue::default(); 2];
+        let mut sort_in = |place: usize, row: [f64; 7], out: &mut [Option<SurfacePoint>]| {
+            let side = side_of(row[3]).index();
+            match &solvers[side] {
+                Some(solver) if solver.takes(row[3]) => {
+                    queues[side].push(place, row);
+                    if queues[side].is_full() {
+                        queues[side].empty::<LANES>(out, |rows, points| {
+                            solver.points(&FaceFeet::from_rows(rows), points);
+                        });
+                    }
+                }
+                _ => out[place] = Some(self.on_mesh([row[0], row[1], row[2]])),
+            }
         };
-        let ((v1, s1), v2) = (s.layer1_jet(x), dot(x, s.l2v));
-        let cubic = RayCubic([v0, v1, v2, s.free]);
-        let t = (if side == Side::Negative { cubic.negated() } else { cubic }).first_root()?;
-        // the layers are homogeneous: at (1 - t) x they are known from x
-        let r = 1.0 - t;
-        let slope = |a: usize| r * r * s0[a] + 3.0 * t * (r * s1[a] + t * s.l2v[a]);
-        let up = 3.0 * (r * r * v1 + t * (2.0 * r * v2 + t * s.free));
-        let slopes = [slope(0), slope(1), slope(2), up];
-        let gradient = gradient(slopes, &s.tetrahedron(&self.corners).gradients());
-        Some(SurfacePoint { point: foot * r + s.apex * t, gradient, t, side: Some(side) })
+        let (eights, rest) = at.as_chunks::<LANES>();
+        for (part, eight) in eights.iter().enumerate() {
+            let (start, feet) = (part * LANES, FaceFeet::new(&self.base, eight));
+            // most often all go the same way
+            match solvers.iter().flatten().find(|s| feet.value.iter().all(|&v| s.takes(v))) {
+                Some(solver) => solver.points(&feet, &mut out.as_chunks_mut().0[part]),
+                None => (0..LANES).for_each(|i| sort_in(start + i, feet.row(i), out)),
+            }
+        }
+        for (i, &x) in rest.iter().enumerate() {
+            sort_in(eights.len() * LANES + i, FaceFeet::new(&self.base, &[x]).row(0), out);
+        }
+        for (queue, solver) in queues.iter_mut().zip(&solvers) {
+            let Some(solver) = solver else { continue };
+            while !queue.is_empty() {
+                queue.empty::<2>(out, |rows, points| {
+                    solver.points(&FaceFeet::from_rows(rows), points);
+                });
+            }
+        }
     }
 
     #[inline]
-    fn gradient(&self, s: &FaceSide, at: [f64; 4]) -> DVec3 {
-        let (_, slopes) = s.jet(&self.base, at);
-        gradient(slopes, &s.tetrahedron(&self.corners).gradients())
+    fn foot(&self, x: [f64; 3]) -> DVec3 {
+        self.corners[0] * x[0] + self.corners[1] * x[1] + self.corners[2] * x[2]
     }
 
     /// A point of the triangle that is on the surface.
-    #[inline]
-    fn on_mesh(&self, foot: DVec3, x: [f64; 3]) -> SurfacePoint {
-        let s = self.sides.iter().flatten().next();
-        let gradient = match s {
-            Some(s) => self.gradient(s, [x[0], x[1], x[2], 0.0]),
+    fn on_mesh(&self, x: [f64; 3]) -> SurfacePoint {
+        let gradient = match self.sides.iter().flatten().next() {
+            Some(s) => {
+                let (_, slopes) = s.jet(&self.base, [x[0], x[1], x[2], 0.0]);
+                gradient(slopes, &s.tetrahedron(&self.corners).gradients())
+            }
             None => {
                 let [a, b, c] = self.corners;
                 (b - a).cross(c - a)
             }
         };
-        SurfacePoint { point: foot, gradient, t: 0.0, side: None }
+        SurfacePoint { point: self.foot(x), gradient, t: 0.0, side: None }
     }
 
     /// The function along the transversal, as that of a point of the triangle, for the side where it
@@ -91,30 +126,68 @@ impl EdgePatch {
     #[inline]
     #[must_use]
     pub fn point(&self, [x, y]: [f64; 2]) -> Option<SurfacePoint> {
-        let foot = self.ends[0] * x + self.ends[1] * (1.0 - x);
-        let base = self.base(x);
-        let Some((side, s)) = self.side_at(base) else {
-            return self.on_mesh(foot, x);
+        match EdgeSolver::new(self, side_of(self.base(x))) {
+            None => self.on_mesh(x),
+            Some(solver) => {
+                let mut found = [None];
+                solver.points(&[[x], [y]], &mut found);
+                found[0]
+            }
+        }
+    }
+
+    /// Appends the points for many parameters: the same as one by one, bit for bit, in less time.
+    pub fn points(&self, at: &[[f64; 2]], out: &mut Vec<Option<SurfacePoint>>) {
+        let first = out.len();
+        out.resize(first + at.len(), None);
+        let out = &mut out[first..];
+        let solvers = Side::BOTH.map(|side| EdgeSolver::new(self, side));
+        let mut queues = [Queue::default(); 2];
+        let mut sort_in = |place: usize, row: [f64; 2], out: &mut [Option<SurfacePoint>]| {
+            let side = side_of(self.base(row[0])).index();
+            match &solvers[side] {
+                None => out[place] = self.on_mesh(row[0]),
+                Some(solver) => {
+                    queues[side].push(place, row);
+                    if queues[side].is_full() {
+                        queues[side]
+                            .empty::<LANES>(out, |rows, points| solver.points(rows, points));
+                    }
+                }
+            }
         };
-        let cubic = s.ray(self.weights, [x, y]);
-        let t = (if side == Side::Negative { cubic.negated() } else { cubic }).first_root()?;
-        let (rest, left, right) = (1.0 - t, t * y, t * (1.0 - y));
-        let at = [right, rest * x, rest * (1.0 - x), left];
-        let point = foot * rest + s.left.apex * left + s.right.apex * right;
-        let side = (t > 0.0).then_some(side);
-        Some(SurfacePoint { point, gradient: self.gradient(s, at), t, side })
+        let (eights, rest) = at.as_chunks::<LANES>();
+        for (part, eight) in eights.iter().enumerate() {
+            let start = part * LANES;
+            let goes = |solver: &EdgeSolver<'_>| {
+                eight.iter().all(|&[x, _]| side_of(self.base(x)) == solver.side)
+            };
+            // most often all go the same way
+            match solvers.iter().flatten().find(|solver| goes(solver)) {
+                Some(solver) => {
+                    let rows = [eight.map(|at| at[0]), eight.map(|at| at[1])];
+                    solver.points(&rows, &mut out.as_chunks_mut().0[part]);
+                }
+                None => (0..LANES).for_each(|i| sort_in(start + i, eight[i], out)),
+            }
+        }
+        for (i, &row) in rest.iter().enumerate() {
+            sort_in(eights.len() * LANES + i, row, out);
+        }
+        for (queue, solver) in queues.iter_mut().zip(&solvers) {
+            let Some(solver) = solver else { continue };
+            while !queue.is_empty() {
+                queue.empty::<2>(out, |rows, points| solver.points(rows, points));
+            }
+        }
     }
 
-    #[inline]
-    fn gradient(&self, s: &EdgeSide, at: [f64; 4]) -> DVec3 {
-        let (_, slopes) = s.jet(self.weights, at);
-        gradient(slopes, &s.tetrahedron(&self.ends).gradients())
-    }
-
-    fn on_mesh(&self, foot: DVec3, x: f64) -> Option<SurfacePoint> {
+    fn on_mesh(&self, x: f64) -> Option<SurfacePoint> {
         let s = self.sides.iter().flatten().next()?;
-        let gradient = self.gradient(s, [0.0, x, 1.0 - x, 0.0]);
-        Some(SurfacePoint { point: foot, gradient, t: 0.0, side: None })
+        let (_, slopes) = s.jet(self.weights, [0.0, x, 1.0 - x, 0.0]);
+        let gradient = gradient(slopes, &s.tetrahedron(&self.ends).gradients());
+        let point = self.ends[0] * x + self.ends[1] * (1.0 - x);
+        Some(SurfacePoint { point, gradient, t: 0.0, side: None })
     }
 
     /// The function along a transversal; the sign is reversed on the negative side.
@@ -131,52 +204,32 @@ impl RationalSurface {
     #[inline]
     #[must_use]
     pub fn face_point(&self, face: FaceId, x: [f64; 3]) -> Option<SurfacePoint> {
-        self.faces[face].point(x)
+        let (record, corners) = (&self.faces[face], self.mesh.triangle(face));
+        let base = record.base();
+        let value = base.value(x);
+        let side = side_of(value).index();
+        // only the tetrahedron where the transversal goes is needed, if it goes anywhere
+        let needed = record.sides[side].as_ref();
+        let Some(s) = needed.filter(|s| value.abs() > ON_SURFACE * s.scale()) else {
+            return self.face(face).point(x);
+        };
+        let mut sides = [None; 2];
+        sides[side] = Some(record.side(s));
+        let (convexity, promoted) = (record.convexity, record.promoted);
+        FacePatch { corners, convexity, promoted, base, sides }.point(x)
     }
 
     /// The point of the surface over an edge, see [`EdgePatch::point`].
     #[inline]
     #[must_use]
     pub fn edge_point(&self, edge: EdgeId, at: [f64; 2]) -> Option<SurfacePoint> {
-        self.edges[edge].point(at)
-    }
-
-    /// Whether every transversal of a grid with `n` steps crosses the surface exactly once, face by
-    /// face and edge by edge; returns the number of those that do not, and of all.
-    #[must_use]
-    pub fn count_bad_transversals(&self, n: usize) -> (usize, usize) {
-        let step = 1.0 / n as f64;
-        let (mut bad, mut all) = (0, 0);
-        let mut check = |missing: bool, cubic: Option<RayCubic>| {
-            all += 1;
-            bad += usize::from(missing || cubic.is_some_and(|c| c.threshold() > 0.0));
-        };
-        for (_, face) in self.faces.iter() {
-            for i in 0..=n {
-                for j in 0..=n - i {
-                    let x = [i as f64 * step, j as f64 * step, (n - i - j) as f64 * step];
-                    let wrong = face.side_at(face.base.value(x)).is_none()
-                        && face.convexity != Convexity::Zero
-                        && face.base.value(x).abs()
-                            > 1e-12
-                                * face
-                                    .sides
-                                    .iter()
-                                    .flatten()
-                                    .fold(0.0, |m: f64, s| m.max(s.scale()));
-                    check(wrong, face.transversal(x));
-                }
-            }
+        let mut sides = [None; 2];
+        let side = side_of(self.edge_with(edge, sides).base(at[0]));
+        sides[side.index()] = self.edge_side(edge, side);
+        match sides {
+            [None, None] => self.edge(edge).point(at),
+            _ => self.edge_with(edge, sides).point(at),
         }
-        for (_, edge) in self.edges.iter().filter(|(_, e)| e.sides.iter().any(Option::is_some)) {
-            for i in 1..n {
-                for j in 0..=n {
-                    let at = [i as f64 * step, j as f64 * step];
-                    check(edge.side_at(edge.base(at[0])).is_none(), edge.transversal(at));
-                }
-            }
-        }
-        (bad, all)
     }
 }
 

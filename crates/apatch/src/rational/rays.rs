@@ -4,6 +4,8 @@ use basemesh::{EdgeId, FaceId};
 use glam::DVec3;
 
 use super::base::BaseLayer;
+use super::edge::EdgePatch;
+use super::face::FacePatch;
 use super::kinds::{Convexity, Side};
 use super::points::{SurfacePoint, foot_of};
 use super::surface::RationalSurface;
@@ -55,13 +57,13 @@ impl RationalSurface {
     /// `n log n`.
     #[must_use]
     pub fn hull(&self) -> RationalHull<'_> {
-        let faces = self.faces.iter().flat_map(|(face, patch)| {
-            let sides = Side::BOTH.into_iter().filter(|s| patch.sides[s.index()].is_some());
-            let flat = (patch.convexity == Convexity::Zero).then_some(Cell::Flat(face));
+        let faces = self.faces.iter().flat_map(|(face, record)| {
+            let sides = Side::BOTH.into_iter().filter(|s| record.sides[s.index()].is_some());
+            let flat = (record.convexity == Convexity::Zero).then_some(Cell::Flat(face));
             sides.map(move |side| Cell::Face(face, side)).chain(flat)
         });
-        let edges = self.edges.iter().flat_map(|(edge, patch)| {
-            let sides = Side::BOTH.into_iter().filter(|s| patch.sides[s.index()].is_some());
+        let edges = self.edges.iter().flat_map(|(edge, record)| {
+            let sides = Side::BOTH.into_iter().filter(|s| record.apices[s.index()].is_some());
             sides.map(move |side| Cell::Edge(edge, side))
         });
         let cells: Vec<Cell> = faces.chain(edges).collect();
@@ -73,11 +75,12 @@ impl RationalSurface {
         match (self.tetrahedron(cell), cell) {
             (Some(t), _) => t.bounding_box(),
             (None, Cell::Face(face, _) | Cell::Flat(face)) => {
-                let [a, b, c] = self.faces[face].corners;
+                let [a, b, c] = self.mesh.triangle(face);
                 [a.min(b).min(c), a.max(b).max(c)]
             }
             (None, Cell::Edge(edge, _)) => {
-                let [a, b] = self.edges[edge].ends;
+                let [a, b] =
+                    self.mesh.topology().edge_vertices(edge).map(|v| self.mesh.position(v));
                 [a.min(b), a.max(b)]
             }
         }
@@ -93,37 +96,80 @@ impl RationalSurface {
         }
     }
 
-    /// Value and derivatives at barycentric coordinates of a cell.
-    fn cell_jet(&self, cell: Cell, at: [f64; 4]) -> Option<(f64, [f64; 4])> {
+    /// The patch of a cell with a tetrahedron.
+    fn cell_patch(&self, cell: Cell) -> Option<CellPatch> {
         match cell {
-            Cell::Face(face, side) => {
-                let patch = &self.faces[face];
-                Some(patch.sides[side.index()].as_ref()?.jet(&patch.base, at))
-            }
-            Cell::Edge(edge, side) => {
-                let patch = &self.edges[edge];
-                Some(patch.sides[side.index()].as_ref()?.jet(patch.weights, at))
-            }
+            Cell::Face(face, side) => Some(CellPatch::Face(self.face(face), side)),
+            Cell::Edge(edge, side) => Some(CellPatch::Edge(self.edge(edge), side)),
             Cell::Flat(_) => None,
         }
     }
+}
 
-    /// The point of the surface on the transversal through barycentric coordinates of a cell, and
-    /// how far along it those are.
-    fn on_transversal(&self, cell: Cell, at: [f64; 4]) -> Option<(SurfacePoint, f64)> {
-        match cell {
-            Cell::Face(face, _) => {
-                let (x, t) = foot_of(at);
-                Some((self.face_point(face, x)?, t))
+/// The function on a cell.
+enum CellPatch {
+    Face(FacePatch, Side),
+    Edge(EdgePatch, Side),
+}
+
+impl CellPatch {
+    /// Value and derivatives at barycentric coordinates.
+    fn jet(&self, at: [f64; 4]) -> Option<(f64, [f64; 4])> {
+        match self {
+            Self::Face(patch, side) => {
+                Some(patch.sides[side.index()].as_ref()?.jet(&patch.base, at))
             }
-            Cell::Edge(edge, _) => {
+            Self::Edge(patch, side) => {
+                Some(patch.sides[side.index()].as_ref()?.jet(patch.weights, at))
+            }
+        }
+    }
+
+    /// The point of the surface on the transversal through barycentric coordinates, and how far along
+    /// it those are.
+    fn on_transversal(&self, at: [f64; 4]) -> Option<(SurfacePoint, f64)> {
+        match self {
+            Self::Face(patch, _) => {
+                let (x, t) = foot_of(at);
+                Some((patch.point(x)?, t))
+            }
+            Self::Edge(patch, _) => {
                 let [right, i, j, left] = at;
                 let (down, up) = (i + j, left + right);
                 let y = if up > 0.0 { (left / up).clamp(0.0, 1.0) } else { 0.5 };
-                Some((self.edge_point(edge, [i / down, y])?, up / (down + up)))
+                Some((patch.point([i / down, y])?, up / (down + up)))
             }
-            Cell::Flat(_) => None,
         }
+    }
+
+    /// The function times its denominator: a polynomial of degree 5 at most.
+    fn numerator(&self, at: [f64; 4]) -> f64 {
+        let Some((value, _)) = self.jet(at) else { return f64::NAN };
+        match self {
+            Self::Face(patch, _) if !patch.base.is_split() => {
+                value * BaseLayer::denominator([at[0], at[1], at[2]])
+            }
+            Self::Face(..) => value,
+            Self::Edge(..) => value * (at[0] + at[3]),
+        }
+    }
+
+    /// The stretch cut where it passes from one third of a split face to another.
+    fn smooth_parts(&self, stretch: &Stretch) -> Vec<Stretch> {
+        let mut cuts = vec![0.0, 1.0];
+        if let Self::Face(patch, _) = self
+            && patch.base.is_split()
+        {
+            for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+                let difference = |end: usize| stretch.ends[end][a] - stretch.ends[end][b];
+                let cut = difference(0) / (difference(0) - difference(1));
+                if cut > 0.0 && cut < 1.0 {
+                    cuts.push(cut);
+                }
+            }
+            cuts.sort_by(f64::total_cmp);
+        }
+        cuts.windows(2).filter(|w| w[0] < w[1]).map(|w| stretch.part(w[0], w[1])).collect()
     }
 }
 
@@ -150,7 +196,7 @@ impl RationalHull<'_> {
             false
         });
         let (_, cell, at) = best?;
-        let (value, slopes) = self.surface.cell_jet(cell, at)?;
+        let (value, slopes) = self.surface.cell_patch(cell)?.jet(at)?;
         let gradients = self.surface.tetrahedron(cell)?.gradients();
         Some(Located { cell, at, value, gradient: gradient(slopes, &gradients) })
     }
@@ -174,54 +220,25 @@ impl RationalHull<'_> {
 
     fn cast_cell(&self, ray: &Ray, cell: Cell) -> Option<RayHit<Cell>> {
         if let Cell::Flat(face) = cell {
-            return cast_triangle(ray, self.surface.faces[face].corners, cell);
+            return cast_triangle(ray, self.surface.mesh.triangle(face), cell);
         }
         let tetrahedron = self.surface.tetrahedron(cell)?;
         let stretch = ray.inside(&tetrahedron)?;
-        for part in self.smooth_parts(cell, &stretch) {
-            let polynomial = SegmentPolynomial::interpolating(|s| self.numerator(cell, part.at(s)));
+        let patch = self.surface.cell_patch(cell)?;
+        for part in patch.smooth_parts(&stretch) {
+            let polynomial = SegmentPolynomial::interpolating(|s| patch.numerator(part.at(s)));
             let on_surface = |s: f64| {
-                let found = self.surface.on_transversal(cell, part.at(s));
+                let found = patch.on_transversal(part.at(s));
                 found.is_some_and(|(point, t)| (point.t - t).abs() <= SAME_ROOT)
             };
             if let Some(s) = polynomial.first_root(on_surface) {
                 let distance = part.part(s, s).distances[0];
-                let (_, slopes) = self.surface.cell_jet(cell, part.at(s))?;
+                let (_, slopes) = patch.jet(part.at(s))?;
                 let gradient = gradient(slopes, &tetrahedron.gradients());
                 return Some(RayHit { distance, point: ray.at(distance), gradient, cell });
             }
         }
         None
-    }
-
-    /// The function times its denominator: a polynomial of degree 5 at most.
-    fn numerator(&self, cell: Cell, at: [f64; 4]) -> f64 {
-        let Some((value, _)) = self.surface.cell_jet(cell, at) else { return f64::NAN };
-        match cell {
-            Cell::Face(face, _) if !self.surface.faces[face].base.is_split() => {
-                value * BaseLayer::denominator([at[0], at[1], at[2]])
-            }
-            Cell::Edge(..) => value * (at[0] + at[3]),
-            _ => value,
-        }
-    }
-
-    /// The stretch cut where it passes from one third of a split face to another.
-    fn smooth_parts(&self, cell: Cell, stretch: &Stretch) -> Vec<Stretch> {
-        let mut cuts = vec![0.0, 1.0];
-        if let Cell::Face(face, _) = cell
-            && self.surface.faces[face].base.is_split()
-        {
-            for (a, b) in [(0, 1), (1, 2), (2, 0)] {
-                let difference = |end: usize| stretch.ends[end][a] - stretch.ends[end][b];
-                let cut = difference(0) / (difference(0) - difference(1));
-                if cut > 0.0 && cut < 1.0 {
-                    cuts.push(cut);
-                }
-            }
-            cuts.sort_by(f64::total_cmp);
-        }
-        cuts.windows(2).filter(|w| w[0] < w[1]).map(|w| stretch.part(w[0], w[1])).collect()
     }
 }
 

@@ -36,8 +36,8 @@ pub(crate) fn repaired_hull(
     settings: &Settings,
 ) -> Result<Repaired, SurfaceError> {
     let repair = &settings.repair;
-    let build = |mesh: &TriMesh, normals: &VertexMap<DVec3>| -> Result<Hull, SurfaceError> {
-        let mut hull = Hull::new(mesh.clone(), normals.clone(), settings)?;
+    let build = |mesh: TriMesh, normals: VertexMap<DVec3>| -> Result<Hull, SurfaceError> {
+        let mut hull = Hull::new(mesh, normals, settings)?;
         if repair.move_apices {
             hull.move_apices();
         }
@@ -45,12 +45,13 @@ pub(crate) fn repaired_hull(
     };
     let mut limit = match normals {
         Normals::Given(given) => {
-            let hull = build(&mesh, &check(&mesh, given)?)?;
+            let given = check(&mesh, given)?;
+            let hull = build(mesh, given)?;
             return Ok(Repaired { hull, normals: NormalsUsed::Given, loop_steps: 0 });
         }
         Normals::Estimated => loop_limit_normals(&mesh),
     };
-    let hull = build(&mesh, &limit)?;
+    let hull = build(mesh.clone(), limit.clone())?;
     let mut best = Repaired { hull, normals: NormalsUsed::LoopLimit, loop_steps: 0 };
     let mut mesh = mesh;
     for loop_steps in 0..=usize::from(repair.loop_step) {
@@ -59,11 +60,15 @@ pub(crate) fn repaired_hull(
             let Ok(finer) = loop_step(&mesh) else { break };
             limit = loop_limit_normals(&finer);
             mesh = finer;
-            best.take_if_better(build(&mesh, &limit)?, NormalsUsed::LoopLimit, loop_steps);
+            best.take_if_better(
+                build(mesh.clone(), limit.clone())?,
+                NormalsUsed::LoopLimit,
+                loop_steps,
+            );
         }
         if repair.cone_normals && best.hull.defects() > 0 {
             let cone = cone_normals(&mesh, &limit);
-            best.take_if_better(build(&mesh, &cone)?, NormalsUsed::Cone, loop_steps);
+            best.take_if_better(build(mesh.clone(), cone)?, NormalsUsed::Cone, loop_steps);
         }
     }
     Ok(best)

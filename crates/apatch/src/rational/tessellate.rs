@@ -12,6 +12,7 @@ use crate::tessellate::{Element, PatchKind, Tessellation, lattice_triangles};
 /// The points over an edge: rows from its first to its last vertex, each from the right face to the
 /// left one.
 struct EdgeGrid {
+    kind: Convexity,
     rows: Vec<Vec<usize>>,
     /// Parameter of each row, from 0 to 1.
     along: Vec<f64>,
@@ -23,7 +24,9 @@ impl RationalSurface {
     ///
     /// Closed if the mesh is, with its Euler characteristic. Where the surface crosses an edge there
     /// is a point. A transversal without a root gives its point on the mesh, without a normal, and
-    /// is counted in [`Tessellation::missing`].
+    /// is counted in [`Tessellation::missing`]. Facets that would look the wrong way are avoided by
+    /// flipping edges, which may join points of two patches; see
+    /// [`Tessellation::flipped_facets`] for those that are left.
     ///
     /// # Panics
     ///
@@ -42,9 +45,10 @@ impl RationalSurface {
         for (face, _) in self.faces.iter() {
             self.push_face(face, along, &grids, &mut out);
         }
-        for (edge, patch) in self.edges.iter() {
-            push_strip(edge, patch, &grids[edge.index()], &mut out);
+        for (edge, _) in self.edges.iter() {
+            push_strip(edge, &grids[edge.index()], &mut out);
         }
+        out.unfold();
         out
     }
 
@@ -56,27 +60,29 @@ impl RationalSurface {
         out: &mut Tessellation,
     ) -> EdgeGrid {
         let topology = self.mesh.topology();
-        let patch = &self.edges[edge];
+        let patch = self.edge(edge);
         let ends = topology.edge_vertices(edge).map(basemesh::VertexId::index);
-        let parameters = parameters(patch, along);
+        let parameters = parameters(&patch, along);
         let crossing = patch.crossing();
         let mut rows = vec![vec![ends[0]; across + 1]];
+        let mut points = Vec::new();
         for &s in &parameters[1..along] {
             // a parameter that was moved to the crossing, and may be rounded
             let x = crossing.filter(|x| 1.0 - x == s).unwrap_or(1.0 - s);
             let foot = patch.ends[0] * x + patch.ends[1] * s;
             let open = patch.side_at(patch.base(x)).is_some() && Some(x) != crossing;
             rows.push(if open {
-                (0..=across)
-                    .map(|j| patch.point([x, j as f64 / across as f64]))
-                    .map(|p| push(p, foot, out))
-                    .collect()
+                let at: Vec<[f64; 2]> =
+                    (0..=across).map(|j| [x, j as f64 / across as f64]).collect();
+                points.clear();
+                patch.points(&at, &mut points);
+                points.iter().map(|&p| push(p, foot, out)).collect()
             } else {
                 vec![push(self.at_rim(edge, x), foot, out); across + 1]
             });
         }
         rows.push(vec![ends[1]; across + 1]);
-        EdgeGrid { rows, along: parameters }
+        EdgeGrid { kind: patch.convexity, rows, along: parameters }
     }
 
     /// The point of the left face over a point of its edge, where there is no edge patch.
@@ -85,10 +91,11 @@ impl RationalSurface {
         let mut at = [0.0; 3];
         at[h.corner()] = x;
         at[h.next().corner()] = 1.0 - x;
-        let mut point = self.faces[h.face()].point(at)?;
-        if Some(x) == self.edges[edge].crossing() {
+        let mut point = self.face_point(h.face(), at)?;
+        let patch = self.edge_with(edge, [None; 2]);
+        if Some(x) == patch.crossing() {
             // exactly on the edge, whatever the rounding
-            let ends = self.edges[edge].ends;
+            let ends = patch.ends;
             point.point = ends[0] * x + ends[1] * (1.0 - x);
         }
         Some(point)
@@ -96,7 +103,7 @@ impl RationalSurface {
 
     fn push_face(&self, face: FaceId, n: usize, grids: &[EdgeGrid], out: &mut Tessellation) {
         let topology = self.mesh.topology();
-        let patch = &self.faces[face];
+        let patch = self.face(face);
         // the point of the side that starts at a corner, after some steps
         let on_side = |corner: usize, steps: usize| {
             let h = face.halfedge(corner);
@@ -108,6 +115,13 @@ impl RationalSurface {
                 rows[n - steps][0]
             }
         };
+        let inner: Vec<[f64; 3]> = (1..n)
+            .flat_map(|i| (1..n - i).map(move |j| [n - i - j, i, j]))
+            .map(|steps| steps.map(|s| s as f64 / n as f64))
+            .collect();
+        let mut points = Vec::new();
+        patch.points(&inner, &mut points);
+        let mut points = inner.into_iter().zip(points);
         let mut ids = vec![0; (n + 1) * (n + 1)];
         for i in 0..=n {
             for j in 0..=n - i {
@@ -118,10 +132,10 @@ impl RationalSurface {
                     (0, _, _) => on_side(1, j),
                     (_, 0, _) => on_side(2, k),
                     _ => {
-                        let x = [k, i, j].map(|steps| steps as f64 / n as f64);
+                        let ([x, y, z], point) =
+                            points.next().expect("invariant: one for each inner place");
                         let [a, b, c] = patch.corners;
-                        let foot = a * x[0] + b * x[1] + c * x[2];
-                        push(patch.point(x), foot, out)
+                        push(point, a * x + b * y + c * z, out)
                     }
                 };
             }
@@ -170,9 +184,9 @@ fn push(point: Option<SurfacePoint>, foot: DVec3, out: &mut Tessellation) -> usi
     }
 }
 
-fn push_strip(edge: EdgeId, patch: &EdgePatch, grid: &EdgeGrid, out: &mut Tessellation) {
+fn push_strip(edge: EdgeId, grid: &EdgeGrid, out: &mut Tessellation) {
     debug_assert_eq!(grid.rows.len(), grid.along.len(), "one row a step");
-    let kind = match patch.convexity {
+    let kind = match grid.kind {
         Convexity::Zero => return,
         Convexity::Nonconvex => PatchKind::NonconvexEdge,
         Convexity::Positive | Convexity::Negative => PatchKind::ConvexEdge,

@@ -1,8 +1,8 @@
 //! The files of a surface.
 
 use anyhow::bail;
-use smoothpatch::apatch::Tessellation;
 use smoothpatch::apatch::rational::RationalSurface;
+use smoothpatch::apatch::{Element, Tessellation};
 use smoothpatch::apatch_surface::{RationalFigures, flat_gap, grid, triangles};
 use smoothpatch::io::{Encoding, write_grid};
 
@@ -26,6 +26,8 @@ pub(crate) struct Outputs {
     pub(crate) files: Vec<Written>,
     /// Points of the triangles that are on the mesh instead of the surface.
     pub(crate) missing: usize,
+    /// The face or edge of each triangle that looks the wrong way.
+    pub(crate) flipped: Vec<Element>,
 }
 
 impl Outputs {
@@ -54,6 +56,7 @@ impl Outputs {
                 Format::Step | Format::Msh => bail!("{}: {NO_POLYNOMIALS}", path.display()),
             });
         }
-        Ok(Self { files: written, missing: mesh.missing })
+        let flipped = mesh.flipped().map(|triangle| mesh.elements[triangle]).collect();
+        Ok(Self { files: written, missing: mesh.missing, flipped })
     }
 }

@@ -1,5 +1,6 @@
 //! What a user must know about a result that is not what it should be.
 
+use smoothpatch::apatch::Element;
 use smoothpatch::apatch_surface::RationalReport;
 
 use super::outputs::Outputs;
@@ -44,6 +45,16 @@ pub(crate) fn warnings(report: &RationalReport, outputs: &Outputs) -> Vec<String
         warnings.push(format!(
             "{} points of the triangles are on the mesh, because there is no surface over it there",
             outputs.missing
+        ));
+    }
+    if !outputs.flipped.is_empty() {
+        warnings.push(format!(
+            "{} flat triangles look the wrong way ({}); another --density would help",
+            outputs.flipped.len(),
+            listed(outputs.flipped.iter().map(|element| match element {
+                Element::Face(face) => format!("face {face}"),
+                Element::Edge(edge) => format!("edge {edge}"),
+            }))
         ));
     }
     if let Some(deviation) = report.deviation.as_ref().filter(|d| d.failed_samples > 0) {

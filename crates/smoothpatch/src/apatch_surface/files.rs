@@ -1,5 +1,7 @@
 //! Surfaces as files have them: flat triangles with normals.
 
+use std::collections::BTreeSet;
+
 use apatch::rational::RationalSurface;
 use apatch::{Element, Tessellation};
 use basemesh::glam::DVec3;
@@ -85,11 +87,11 @@ pub fn grid(
         Element::Face(_) => -1,
         Element::Edge(edge) => id(edge.index()),
     };
+    let invalid_edges: BTreeSet<usize> =
+        surface.report().invalid_edges.iter().map(|found| found.edge).collect();
     let invalid = |element: &Element| match *element {
         Element::Face(_) => 0,
-        Element::Edge(edge) => {
-            i64::from(surface.edge(edge).sides.iter().flatten().any(|s| !s.is_valid()))
-        }
+        Element::Edge(edge) => i64::from(invalid_edges.contains(&edge.index())),
     };
     let kinds = tessellation.kinds.iter().map(|&kind| i64::from(kind as u8)).collect();
     let mut data = vec![

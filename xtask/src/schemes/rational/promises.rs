@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use smoothpatch::apatch::Tessellation;
-use smoothpatch::apatch::rational::RationalSurface;
+use smoothpatch::apatch::rational::{RationalSurface, Side};
 use smoothpatch::apatch_surface::joints;
 
 use crate::check::Check;
@@ -17,8 +17,8 @@ pub(super) fn promises(surface: &RationalSurface, steps: usize) -> Measured {
     let topology = surface.mesh().topology();
     let joints = joints(surface);
     let (bad, _) = surface.count_bad_transversals(RAYS);
-    let sides = topology.edges().flat_map(|edge| surface.edge(edge).sides).flatten();
-    let invalid = sides.filter(|side| !side.is_valid()).count();
+    let wedges = topology.edges().flat_map(|e| Side::BOTH.map(|side| surface.wedge(e, side)));
+    let invalid = wedges.flatten().filter(|wedge| !wedge.is_valid()).count();
     let mesh = surface.tessellate(steps, steps);
     let count = |n: usize| i64::try_from(n).expect("invariant: counts fit 32 bits");
     let (euler, rim) = topology_of(&mesh);
