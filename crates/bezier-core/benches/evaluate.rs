@@ -5,8 +5,8 @@ use std::hint::black_box;
 
 use bezier_core::glam::DVec3;
 use bezier_core::{
-    Barycentric, LocalEdge, MultiIndex, ParametricPatch, QuarticCurve, QuarticTriangle, Seam,
-    SepticTriangle,
+    Barycentric, LocalEdge, MultiIndex, ParameterGrid, ParametricPatch, QuarticCurve,
+    QuarticTriangle, Seam, SepticTriangle,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -61,6 +61,47 @@ fn batches(c: &mut Criterion) {
     group.finish();
 }
 
+/// Many patches at the same parameters, as when they are measured or tessellated, and one patch at
+/// parameters of its own.
+fn grids(c: &mut Criterion) {
+    let patches: Vec<SepticTriangle> = (0..64).map(|i| patch(0.01 * f64::from(i))).collect();
+    let mut group = c.benchmark_group("septic/grid");
+    for divisions in [12, 16] {
+        let grid = ParameterGrid::<36>::lattice(divisions);
+        let count = grid.parameters().len();
+        let mut points = vec![DVec3::ZERO; count];
+        let mut normals = points.clone();
+        group.throughput(Throughput::Elements((patches.len() * count) as u64));
+        group.bench_function(format!("points/{count}"), |b| {
+            b.iter(|| {
+                for patch in &patches {
+                    grid.points(black_box(patch), black_box(&mut points));
+                }
+            });
+        });
+        group.bench_function(format!("points_and_unit_normals/{count}"), |b| {
+            b.iter(|| {
+                for patch in &patches {
+                    grid.points_and_area_normals(black_box(patch), &mut points, &mut normals);
+                    normals.iter_mut().for_each(|n| *n = n.normalize_or_zero());
+                    black_box((&points, &normals));
+                }
+            });
+        });
+        group.bench_function(format!("own parameters/{count}"), |b| {
+            b.iter(|| {
+                for patch in &patches {
+                    let at = black_box(grid.parameters());
+                    black_box(patch).points_and_area_normals(at, &mut points, &mut normals);
+                    normals.iter_mut().for_each(|n| *n = n.normalize_or_zero());
+                    black_box((&points, &normals));
+                }
+            });
+        });
+    }
+    group.finish();
+}
+
 fn rows(c: &mut Criterion) {
     let (left, right) = (patch(0.05), patch(0.04));
     let edge = LocalEdge::ALL[1];
@@ -87,5 +128,5 @@ fn elevation(c: &mut Criterion) {
     c.bench_function("elevate/curve/4-7", |b| b.iter(|| black_box(&curve).elevate_to::<8>()));
 }
 
-criterion_group!(benches, single, batches, rows, elevation);
+criterion_group!(benches, single, batches, grids, rows, elevation);
 criterion_main!(benches);

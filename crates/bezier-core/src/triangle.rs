@@ -11,6 +11,7 @@ use glam::DVec3;
 use crate::coefficient::Coefficient;
 use crate::local_edge::Corner;
 use crate::multi_index::MultiIndex;
+pub(crate) use eval::MAX_DEGREE;
 
 /// A polynomial patch (or function) over a triangle in Bernstein form, with `P` control points.
 ///

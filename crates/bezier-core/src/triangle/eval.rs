@@ -15,7 +15,8 @@ use crate::coefficient::Coefficient;
 use crate::jet::PatchJet;
 use crate::patch::ParametricPatch;
 
-const MAX_DEGREE: usize = 12;
+/// Highest degree of a patch that can be evaluated.
+pub(crate) const MAX_DEGREE: usize = 12;
 
 /// Powers `x^0 ..= x^MAX_DEGREE`.
 #[inline]
