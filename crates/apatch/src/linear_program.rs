@@ -10,26 +10,32 @@ use glam::DVec3;
 pub(crate) struct HalfSpace {
     pub(crate) normal: DVec3,
     pub(crate) offset: f64,
+    /// Must hold by a margin, but does not count for how deep a point is.
+    pub(crate) hard: bool,
 }
+
+/// Least distance from the border of a hard half-space, in the unit of the offsets.
+const HARD_MARGIN: f64 = 1e-3;
 
 impl HalfSpace {
     /// The same half-space with a unit normal; `None` if the normal vanishes.
     pub(crate) fn normalized(self) -> Option<Self> {
         let length = self.normal.length();
         let (normal, offset) = (self.normal / length, self.offset / length);
-        (normal.is_finite() && offset.is_finite()).then_some(Self { normal, offset })
+        let hard = self.hard;
+        (normal.is_finite() && offset.is_finite()).then_some(Self { normal, offset, hard })
     }
 }
 
 /// The point whose least value of `normal · x + offset` is largest, up to `cap`, with coordinates
-/// within `±size`; and that value, which is negative if the half-spaces have no point in common.
+/// within `±size`; and that value, which is negative if the half-spaces have no point in common. Hard
+/// half-spaces only have to hold; `None` if they cannot.
 ///
 /// An interior-point method: where the best point is not unique, it returns one in the middle of
 /// them. `None` if the solver fails.
 pub(crate) fn deepest_point(spaces: &[HalfSpace], cap: f64, size: f64) -> Option<(DVec3, f64)> {
     // unknowns: x and the slack s; rows: A (x, s) <= b
-    let mut rows: Vec<([f64; 4], f64)> =
-        spaces.iter().map(|h| ([-h.normal.x, -h.normal.y, -h.normal.z, 1.0], h.offset)).collect();
+    let mut rows: Vec<([f64; 4], f64)> = spaces.iter().map(row).collect();
     rows.push(([0.0, 0.0, 0.0, 1.0], cap));
     for axis in 0..3 {
         for sign in [1.0, -1.0] {
@@ -58,8 +64,15 @@ pub(crate) fn deepest_point(spaces: &[HalfSpace], cap: f64, size: f64) -> Option
         matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved);
     let point = DVec3::from_slice(solver.solution.x.get(..3)?);
     // the slack of the point itself, not what the solver believes
-    let slack = spaces.iter().map(|h| h.normal.dot(point) + h.offset).fold(cap, f64::min);
-    (usable && point.is_finite()).then_some((point, slack))
+    let depth = |h: &HalfSpace| h.normal.dot(point) + h.offset;
+    let holds = spaces.iter().filter(|h| h.hard).all(|h| depth(h) > 0.0);
+    let slack = spaces.iter().filter(|h| !h.hard).map(depth).fold(cap, f64::min);
+    (usable && holds && point.is_finite()).then_some((point, slack))
+}
+
+fn row(h: &HalfSpace) -> ([f64; 4], f64) {
+    let [x, y, z] = (-h.normal).to_array();
+    if h.hard { ([x, y, z, 0.0], h.offset - HARD_MARGIN) } else { ([x, y, z, 1.0], h.offset) }
 }
 
 #[cfg(test)]
@@ -71,7 +84,7 @@ mod tests {
         let spaces: Vec<_> = [DVec3::X, DVec3::Y, DVec3::Z]
             .into_iter()
             .flat_map(|n| [(n, 1.0), (-n, 3.0)])
-            .map(|(normal, offset)| HalfSpace { normal, offset })
+            .map(|(normal, offset)| HalfSpace { normal, offset, hard: false })
             .collect();
         let (x, slack) = deepest_point(&spaces, 10.0, 100.0).expect("a cube");
         assert!(x.distance(DVec3::ONE) <= 1e-6 && (slack - 2.0).abs() <= 1e-6, "{x} {slack}");
@@ -81,9 +94,18 @@ mod tests {
 
     #[test]
     fn nothing_in_common() {
-        let spaces = [(DVec3::X, -1.0), (-DVec3::X, -1.0)]
-            .map(|(normal, offset)| HalfSpace { normal, offset });
+        let spaces = [(DVec3::X, -1.0), (-DVec3::X, -1.0)].map(|(normal, offset)| HalfSpace {
+            normal,
+            offset,
+            hard: false,
+        });
         let (_, slack) = deepest_point(&spaces, 1.0, 10.0).expect("a least bad point");
         assert!((slack + 1.0).abs() <= 1e-6, "{slack}");
+        let mut one_hard = spaces;
+        one_hard[0].hard = true;
+        let (x, slack) = deepest_point(&one_hard, 1.0, 10.0).expect("a point of the hard one");
+        assert!(x.x > 1.0 && (slack + 2.0).abs() <= 1e-2, "{x} {slack}");
+        one_hard[1].hard = true;
+        assert_eq!(deepest_point(&one_hard, 1.0, 10.0), None);
     }
 }

@@ -129,8 +129,8 @@ fn at_edge(surface: &RationalSurface, edge: EdgeId, joints: &mut Joints) {
             let mut weights = [0.0; 4];
             (weights[h.corner()], weights[h.next().corner()]) = (at, 1.0 - at);
             all.extend(Side::BOTH.map(|side| surface.face_value(h.face(), side, weights)));
-            let sides = surface.face(h.face()).sides.iter().flatten();
-            scale = sides.fold(scale, |scale, s| scale.max(s.scale()));
+            let patch = surface.face(h.face());
+            scale = patch.sides.iter().flatten().fold(scale, |scale, s| scale.max(s.scale()));
         }
         let weights = [0.0, x, 1.0 - x, 0.0];
         all.extend(Side::BOTH.map(|side| surface.edge_value(edge, side, weights)));
