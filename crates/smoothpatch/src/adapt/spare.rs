@@ -19,7 +19,7 @@ const KEPT: [usize; 4] = [60, 77, 88, 94];
 pub(super) fn spare(
     mut fitted: Fitted,
     tolerance: &Tolerance,
-    job: &mut Job<'_, '_, '_>,
+    job: &mut Job<'_, '_>,
 ) -> Result<Fitted, FitError> {
     for kept in KEPT {
         while let Some(better) = with_fewer(&fitted, kept, tolerance, job)? {
@@ -34,7 +34,7 @@ fn with_fewer(
     fitted: &Fitted,
     kept: usize,
     tolerance: &Tolerance,
-    job: &mut Job<'_, '_, '_>,
+    job: &mut Job<'_, '_>,
 ) -> Result<Option<Fitted>, FitError> {
     // an even number
     let fewer = fitted.faces() * kept / 200 * 2;
