@@ -42,7 +42,7 @@ use task::{Input, Task};
 )]
 pub(crate) struct FitArguments {
     /// A scene file (RON), or a closed mesh of triangles or polygons (OBJ, STL, PLY, OFF)
-    #[arg(value_name = "SCENE.ron|MESH", group = SURFACE)]
+    #[arg(id = "scene", value_name = "SCENE.ron|MESH", group = SURFACE)]
     input: Option<PathBuf>,
 
     #[command(flatten)]

@@ -47,6 +47,12 @@ pub enum MeshFileError {
         /// What is there.
         found: String,
     },
+    /// A text STL file ends too early.
+    #[error("the file ends where {expected} should follow")]
+    StlEnd {
+        /// What should be there.
+        expected: &'static str,
+    },
     /// A binary STL file is shorter than its number of triangles says.
     #[error("the STL file announces {triangles} triangles but ends in triangle {found}")]
     StlShort {

@@ -62,8 +62,7 @@ struct Words<'t>(Box<dyn Iterator<Item = (usize, &'t str)> + 't>);
 
 impl<'t> Words<'t> {
     fn next(&mut self, expected: &'static str) -> Result<(usize, &'t str), MeshFileError> {
-        let end = MeshFileError::StlText { line: 0, expected, found: "the end of the file".into() };
-        self.0.next().ok_or(end)
+        self.0.next().ok_or(MeshFileError::StlEnd { expected })
     }
 
     fn keyword(&mut self, expected: &'static str) -> Result<(), MeshFileError> {

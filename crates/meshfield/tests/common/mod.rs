@@ -1,10 +1,14 @@
 //! A torus as a mesh, and how far jets and field are from it.
 
+#![allow(dead_code, unreachable_pub, reason = "every test uses a part")]
+
 use std::f64::consts::TAU;
 
 use meshfield::basemesh::TriMesh;
-use meshfield::glam::DVec3;
-use meshfield::implicit::{self, ImplicitField, ProjectionSettings, project_with_gradient};
+use meshfield::glam::{DMat3, DVec3};
+use meshfield::implicit::{
+    self, ImplicitField, ProjectionSettings, project_with_gradient, surface_point,
+};
 use meshfield::{JetSettings, MeshField, fit_jets};
 
 /// Radii 3 and 1; `2 n` by `n` vertices that are moved along the surface by a part of the step.
@@ -18,46 +22,56 @@ pub fn torus(n: usize) -> TriMesh {
         DVec3::new((3.0 + q.cos()) * p.cos(), (3.0 + q.cos()) * p.sin(), q.sin())
     };
     let id = |i: usize, j: usize| i % around * across + j % across;
-    let mut faces = Vec::new();
-    for i in 0..around {
-        for j in 0..across {
+    let grid = || (0..around).flat_map(|i| (0..across).map(move |j| (i, j)));
+    let faces: Vec<[usize; 3]> = grid()
+        .flat_map(|(i, j)| {
             let (a, b, c, d) = (id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1));
-            faces.extend([[a, b, c], [a, c, d]]);
-        }
-    }
-    let positions = (0..around).flat_map(|i| (0..across).map(move |j| position(i, j))).collect();
-    TriMesh::new(positions, &faces).expect("a torus")
+            [[a, b, c], [a, c, d]]
+        })
+        .collect();
+    TriMesh::new(grid().map(|(i, j)| position(i, j)).collect(), &faces).expect("a torus")
 }
 
-/// Largest errors: normals and curvatures at vertices; positions, normals and curvatures of the field at centres of faces.
-pub fn errors(n: usize, settings: &JetSettings) -> [f64; 5] {
+/// Largest errors: at the vertices, and of the blended surface between them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Errors {
+    pub normal: f64,
+    pub form: f64,
+    pub blended_position: f64,
+    pub blended_normal: f64,
+    pub blended_form: f64,
+}
+
+fn largest_entry(difference: DMat3) -> f64 {
+    difference.to_cols_array().into_iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// Errors on the torus with so many steps.
+pub fn errors(n: usize, settings: &JetSettings) -> Errors {
     let exact = implicit::Torus { major_radius: 3.0, minor_radius: 1.0 };
+    let truth = |p: DVec3| surface_point(&exact, p).expect("regular");
     let mesh = torus(n);
     let jets = fit_jets(&mesh, settings).expect("jets");
-    let mut errors = [0.0_f64; 5];
+    let mut errors = Errors::default();
     for (v, jet) in jets.iter() {
-        let jet = jet.surface_jet().expect("a graph");
-        let truth = implicit::surface_point(&exact, mesh.position(v)).expect("regular");
-        errors[0] = errors[0].max(jet.normal.distance(truth.normal));
-        let difference = jet.second_fundamental_form - truth.second_fundamental_form;
-        errors[1] =
-            errors[1].max(difference.to_cols_array().iter().fold(0.0, |m, d| m.max(d.abs())));
+        let (jet, truth) = (jet.surface_jet().expect("a graph"), truth(mesh.position(v)));
+        let form = jet.second_fundamental_form - truth.second_fundamental_form;
+        errors.normal = errors.normal.max(jet.normal.distance(truth.normal));
+        errors.form = errors.form.max(largest_entry(form));
     }
     let field = MeshField::new(mesh, jets).expect("faces with area");
-    let settings = ProjectionSettings::default();
     for face in field.mesh().topology().faces() {
         let [a, b, c] = field.mesh().triangle(face);
         for [u, v, w] in [[1.0, 1.0, 1.0], [4.0, 2.0, 1.0], [0.0, 1.0, 1.0]] {
             let p = (a * u + b * v + c * w) / (u + v + w);
-            let (foot, normal) = project_with_gradient(&field, p, 1.0, &settings).expect("a foot");
-            let truth = implicit::surface_point(&exact, foot).expect("regular");
-            errors[2] =
-                errors[2].max(exact.value(foot).abs() / exact.value_gradient(foot).1.length());
-            errors[3] = errors[3].max(normal.distance(truth.normal));
-            let ours = implicit::surface_point(&field, foot).expect("regular");
-            let difference = ours.second_fundamental_form - truth.second_fundamental_form;
-            errors[4] =
-                errors[4].max(difference.to_cols_array().iter().fold(0.0, |m, d| m.max(d.abs())));
+            let (foot, normal) =
+                project_with_gradient(&field, p, 1.0, &ProjectionSettings::default()).expect("a foot");
+            let (value, gradient) = exact.value_gradient(foot);
+            let form = field.surface_jet(foot).expect("regular").second_fundamental_form
+                - truth(foot).second_fundamental_form;
+            errors.blended_position = errors.blended_position.max(value.abs() / gradient.length());
+            errors.blended_normal = errors.blended_normal.max(normal.distance(truth(foot).normal));
+            errors.blended_form = errors.blended_form.max(largest_entry(form));
         }
     }
     errors
