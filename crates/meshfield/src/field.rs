@@ -74,22 +74,31 @@ impl MeshField {
 
     /// Position, normal and second fundamental form at a point near the surface.
     ///
-    /// The normal is that of the level set; the form is the mean of those of the jets nearby, weighted
-    /// like these. That is as exact in order as the form of the level set, but the weights, which bend
-    /// it where jets differ, do not enter. At a vertex both are equal. `None` for points that are not
-    /// finite.
+    /// Normal and form are the means of those of the jets nearby, weighted like these. That is as exact in
+    /// order as normal and form of the level set, but the weights, which bend it where jets differ, do not
+    /// enter. At a vertex both are equal. `None` for points that are not finite.
     #[must_use]
     pub fn surface_jet(&self, p: DVec3) -> Option<SurfaceJet> {
-        let (_, gradient) = self.value_gradient(p);
         let at = Jet2::variables(p.to_array());
         let mean = self.blend(p, p.to_array(), |weight, jet| jet.height(at) * weight)?;
-        let jet = FieldJet { gradient, ..mean.into() };
-        let found = surface_point(&Known(jet), p).ok()?;
+        let found = surface_point(&Known(mean.into()), p).ok()?;
         Some(SurfaceJet {
             point: p,
             normal: found.normal,
             second_fundamental_form: found.second_fundamental_form,
         })
+    }
+
+    /// The unit normal at a point near the surface: the mean of the normals of the jets nearby, weighted
+    /// like these.
+    ///
+    /// It has the same order as the normal of the level set, but follows no waves where jets differ. `None`
+    /// for points that are not finite.
+    #[must_use]
+    pub fn normal(&self, p: DVec3) -> Option<DVec3> {
+        let at = Jet1::variables(p.to_array());
+        let mean = self.blend(p, p.to_array(), |weight, jet| jet.height(at) * weight)?;
+        DVec3::from_array(mean.gradient).try_normalize()
     }
 
     fn eval<T: Number>(&self, at: DVec3, p: [T; 3]) -> T {

@@ -79,8 +79,26 @@ fn fit_jet(
             axis = fitted.surface_jet()?.normal;
             jet = Some(fitted);
         }
-        jet.filter(|jet| jet.quality.condition <= settings.max_condition)
+        let mut jet = jet?;
+        jet.quality.normal_error = normal_error(mesh, normals, vertex, &jet);
+        let is_resolved = degree == 2 || jet.quality.normal_error <= settings.max_normal_error;
+        (is_resolved && jet.quality.condition <= settings.max_condition).then_some(jet)
     })
+}
+
+/// How far the polynomial leans against the faces at the neighbours along edges.
+fn normal_error(
+    mesh: &TriMesh,
+    normals: &VertexMap<DVec3>,
+    vertex: VertexId,
+    jet: &VertexJet,
+) -> f64 {
+    let lean = |v: VertexId| {
+        let normal = jet.normal_at(mesh.position(v)).unwrap_or(-normals[v]);
+        normal.cross(normals[v]).length().atan2(normal.dot(normals[v]))
+    };
+    let (ring, _) = neighbours(mesh, vertex, 1, |_| true);
+    ring.into_iter().map(lean).fold(0.0, f64::max)
 }
 
 /// Least squares in the frame with this third axis; `None` if a number is not finite.
@@ -111,7 +129,8 @@ fn fit_along(
     }
     let (solution, condition) = least_squares(matrix.clone(), &heights)?;
     let residual = ((matrix * &solution - heights).norm_squared() / squares).sqrt();
-    let quality = FitQuality { degree, points: rows, rings, condition, residual, radius };
+    let quality =
+        FitQuality { degree, points: rows, rings, condition, residual, normal_error: 0.0, radius };
     let polynomial = Polynomial::new(degree, solution.as_slice());
     let is_finite = residual.is_finite() && solution.iter().all(|c| c.is_finite());
     is_finite.then_some(VertexJet { origin, axes, polynomial, quality })

@@ -20,6 +20,9 @@ pub struct FitQuality {
     pub condition: f64,
     /// Weighted root mean square distance of the points from the polynomial, over the radius.
     pub residual: f64,
+    /// Largest angle between the polynomial's normals at neighbours along edges and the mean normals of the
+    /// faces there. Unit: radians.
+    pub normal_error: f64,
     /// Distance of the farthest point in the tangent plane. Unit: length.
     pub radius: f64,
 }
@@ -57,6 +60,12 @@ impl VertexJet {
             dvv: z * (2.0 * c(0, 2) * bend),
         }
         .surface_jet()
+    }
+
+    /// Unit normal of the polynomial under or over a point.
+    pub(crate) fn normal_at(&self, p: DVec3) -> Option<DVec3> {
+        let height = self.height(implicit::Jet1::variables(p.to_array()));
+        DVec3::from_array(height.gradient).try_normalize()
     }
 
     /// Height of a point over the polynomial, along the third axis. Unit: length.

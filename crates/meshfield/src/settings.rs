@@ -17,6 +17,10 @@ pub struct JetSettings {
     /// Neighbours whose normal turns by more than this from that of the vertex are not used.
     /// Unit: radians; default 75°.
     pub max_turning: f64,
+    /// Where the polynomial's normal at a neighbour along an edge differs by more than this from the mean
+    /// normal of the faces there, the mesh does not resolve the surface, and a lower degree is taken.
+    /// Unit: radians; default 20°.
+    pub max_normal_error: f64,
     /// Largest condition number of the scaled equations; a lower degree is taken beyond. Default 1e4.
     pub max_condition: f64,
 }
@@ -28,6 +32,7 @@ impl Default for JetSettings {
             points_per_coefficient: 1.25,
             distance_power: 2,
             max_turning: 75_f64.to_radians(),
+            max_normal_error: 20_f64.to_radians(),
             max_condition: 1e4,
         }
     }

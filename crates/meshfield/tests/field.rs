@@ -43,7 +43,8 @@ fn derivatives_are_those_of_the_value() {
             let [plus, minus] = [p + axis * step, p - axis * step];
             let slope = (field.value(plus) - field.value(minus)) / (2.0 * step);
             assert!((slope - jet.gradient.dot(axis)).abs() < 1e-7, "face {face}");
-            let bend = (field.value_gradient(plus).1 - field.value_gradient(minus).1) / (2.0 * step);
+            let bend =
+                (field.value_gradient(plus).1 - field.value_gradient(minus).1) / (2.0 * step);
             assert!((bend - jet.hessian * axis).length() < 1e-5, "face {face}");
         }
     }

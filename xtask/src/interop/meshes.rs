@@ -15,7 +15,7 @@ use smoothpatch::{G1Surface, Settings, Silent};
 use super::samples::Samples;
 
 /// Angle between faces up to which a mesh counts as smooth.
-const CREASE_ANGLE: f64 = PI / 3.0;
+const CREASE_ANGLE: f64 = 80.0 * PI / 180.0;
 
 pub(super) fn write(samples: &mut Samples) -> Result<()> {
     let sphere = fitted("sphere_1280.stl", MeshBase::Faces, 100)?;

@@ -14,7 +14,7 @@ use super::{Case, Measured};
 use crate::check::Check;
 
 const SCHEME: &str = "mesh to G1";
-const CREASE_ANGLE: f64 = std::f64::consts::FRAC_PI_3;
+const CREASE_ANGLE: f64 = 80.0 * std::f64::consts::PI / 180.0;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -84,7 +84,11 @@ fn fitted(
         let target = FieldTarget::new(exact, diagonal, ProjectionSettings::default());
         let (from_exact, _) = deviation(&surface.patches.nets, &target, diagonal);
         measured.deviation = Some(from_exact.max);
-        measured.checks.push(Check::at_most("distance from the exact surface", from_exact.max, bound));
+        measured.checks.push(Check::at_most(
+            "distance from the exact surface",
+            from_exact.max,
+            bound,
+        ));
     }
     Ok(measured)
 }

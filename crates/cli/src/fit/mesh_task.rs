@@ -29,7 +29,7 @@ pub(crate) struct MeshOptions {
     keep_vertices: bool,
 
     /// A mesh whose faces meet at more than this angle somewhere has sharp edges, which cannot be kept
-    /// yet [default: 60]
+    /// yet [default: 80]
     #[arg(long, value_name = "DEG", value_parser = values::crease_angle)]
     #[arg(allow_hyphen_values = true)]
     crease_angle: Option<f64>,
@@ -41,7 +41,7 @@ pub(crate) struct MeshOptions {
 }
 
 /// Angle between faces above which an edge is sharp, in degrees.
-const CREASE_ANGLE: f64 = 60.0;
+const CREASE_ANGLE: f64 = 80.0;
 
 impl MeshOptions {
     /// The name of an option that was given.

@@ -65,7 +65,8 @@ pub fn errors(n: usize, settings: &JetSettings) -> Errors {
         for [u, v, w] in [[1.0, 1.0, 1.0], [4.0, 2.0, 1.0], [0.0, 1.0, 1.0]] {
             let p = (a * u + b * v + c * w) / (u + v + w);
             let (foot, normal) =
-                project_with_gradient(&field, p, 1.0, &ProjectionSettings::default()).expect("a foot");
+                project_with_gradient(&field, p, 1.0, &ProjectionSettings::default())
+                    .expect("a foot");
             let (value, gradient) = exact.value_gradient(foot);
             let form = field.surface_jet(foot).expect("regular").second_fundamental_form
                 - truth(foot).second_fundamental_form;

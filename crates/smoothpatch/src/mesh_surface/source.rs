@@ -29,8 +29,8 @@ pub enum MeshSurfaceError {
     },
     /// Edges that are sharper than the crease angle.
     #[error(
-        "the mesh has creases: at {} edges the faces meet at more than {limit_deg}\u{b0} (the largest \
-         angle is {largest_deg:.1}\u{b0}), {}; sharp edges cannot be kept yet", edges.len(), named(edges)
+        "the mesh has creases: at {} edges the faces meet at more than {limit_deg:.0}° (the largest \
+         angle is {largest_deg:.1}°), {}; sharp edges cannot be kept yet", edges.len(), named(edges)
     )]
     Creases {
         /// The ends of these edges.
@@ -47,7 +47,7 @@ fn named(edges: &[[usize; 2]]) -> String {
     let mut names: Vec<String> =
         edges.iter().take(NAMED).map(|[a, b]| format!("{a}-{b}")).collect();
     if edges.len() > NAMED {
-        names.push("\u{2026}".to_owned());
+        names.push("…".to_owned());
     }
     names.join(", ")
 }
@@ -83,7 +83,8 @@ pub fn mesh_field(
     Ok(MeshField::new(mesh, jets)?)
 }
 
-/// Feet and second-order data of a mesh.
+/// Feet and second-order data of a mesh. Feet are on the level set; normals and forms are the means of those
+/// of the jets nearby.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshSource<'a> {
     field: &'a MeshField,
@@ -100,15 +101,17 @@ impl<'a> MeshSource<'a> {
 
 impl SurfaceTarget for MeshSource<'_> {
     fn foot(&self, near: DVec3) -> Option<Foot> {
-        self.target.foot(near)
-    }
-
-    fn feet(&self, points: &[DVec3], feet: &mut [Option<Foot>]) {
-        self.target.feet(points, feet);
+        let point = self.target.foot(near)?.point;
+        Some(Foot { point, normal: self.field.normal(point)? })
     }
 
     fn linear_feet(&self, points: &[DVec3], feet: &mut [Option<Foot>]) {
         self.target.linear_feet(points, feet);
+        for (foot, &near) in feet.iter_mut().zip(points) {
+            *foot = foot.and_then(|Foot { point, .. }| {
+                Some(Foot { point, normal: self.field.normal(near)? })
+            });
+        }
     }
 }
 
