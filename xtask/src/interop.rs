@@ -1,6 +1,7 @@
 //! `cargo xtask interop`: samples of every scheme and format, judged by programs that read them.
 
 mod fitted;
+mod meshes;
 mod nagata;
 mod python;
 mod samples;
@@ -67,6 +68,7 @@ fn write_samples(folder: &Path) -> Result<Samples> {
     let mut samples = Samples::new(folder)?;
     fitted::write(&mut samples).context("samples of fitted surfaces")?;
     nagata::write(&mut samples).context("samples of curved meshes")?;
+    meshes::write(&mut samples).context("samples of fitted meshes")?;
     samples.finish()?;
     Ok(samples)
 }

@@ -1,5 +1,6 @@
 //! The second table of `cargo xtask verify`: patch schemes over given meshes.
 
+mod meshes;
 mod nagata;
 mod polyhedral;
 mod rational;
@@ -74,7 +75,10 @@ impl Row {
 
 /// All cases, in the order of the table.
 pub(crate) fn cases(effort: Effort) -> Vec<Case> {
-    [nagata::cases(), rational::cases(), polyhedral::cases(effort)].into_iter().flatten().collect()
+    [nagata::cases(), rational::cases(), polyhedral::cases(effort), meshes::cases()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 pub(crate) fn measure(case: &Case, effort: Effort) -> Row {

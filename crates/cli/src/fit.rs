@@ -1,7 +1,9 @@
 //! `smoothpatch fit`: from a surface to files.
 
+mod mesh_task;
 mod outputs;
 mod report_file;
+mod scene_task;
 mod summary;
 mod task;
 mod warnings;
@@ -12,8 +14,8 @@ use std::time::Instant;
 use clap::{ArgGroup, Args, ValueEnum};
 use smoothpatch::implicit::Aabb;
 use smoothpatch::io::CellKind;
-use smoothpatch::measure::{USUAL_CUTS, certify};
-use smoothpatch::{FieldSource, Method, report};
+use smoothpatch::measure::{Certificate, USUAL_CUTS, certify};
+use smoothpatch::{Method, Report, report};
 
 use crate::arguments::EXIT_CODES;
 use crate::exit::{Outcome, complain};
@@ -23,9 +25,10 @@ use crate::stdout::print;
 use crate::surface::{SURFACE, SurfaceArguments};
 use crate::threads::ThreadArguments;
 use crate::values;
+use mesh_task::{MeshOptions, MeshReport};
 use outputs::Outputs;
 use report_file::ReportFile;
-use task::Task;
+use task::{Input, Task};
 
 /// Fit a surface with G1 patches, measure the result and write it
 ///
@@ -38,9 +41,9 @@ use task::Task;
     after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"),
 )]
 pub(crate) struct FitArguments {
-    /// A scene file (RON)
-    #[arg(value_name = "SCENE.ron", group = SURFACE)]
-    scene: Option<PathBuf>,
+    /// A scene file (RON), or a closed mesh of triangles or polygons (OBJ, STL, PLY, OFF)
+    #[arg(id = "scene", value_name = "SCENE.ron|MESH", group = SURFACE)]
+    input: Option<PathBuf>,
 
     #[command(flatten)]
     surface: SurfaceArguments,
@@ -97,6 +100,9 @@ pub(crate) struct FitArguments {
     /// Each patch becomes N² triangles in files of flat triangles
     #[arg(long, value_name = "N", default_value = "8", value_parser = values::divisions)]
     divisions: usize,
+
+    #[command(flatten)]
+    mesh_options: MeshOptions,
 
     #[command(flatten)]
     formats: FormatOptions,
@@ -157,6 +163,13 @@ impl From<CellName> for CellKind {
     }
 }
 
+/// Everything that was measured.
+pub(crate) struct Measured<'a> {
+    report: &'a Report,
+    mesh: Option<&'a MeshReport>,
+    certificate: Option<&'a Certificate>,
+}
+
 pub(crate) fn run(arguments: &FitArguments) -> anyhow::Result<Outcome> {
     let outputs = Outputs::new(arguments)?;
     outputs.check_places()?;
@@ -168,22 +181,31 @@ pub(crate) fn run(arguments: &FitArguments) -> anyhow::Result<Outcome> {
     let mut progress = progress::listener(arguments.quiet);
     let surface = task.fit(&mut *progress)?;
     let diagonal = surface.mesh.diagonal();
-    let source = FieldSource::new(&*task.field, diagonal, task.settings.projection);
-    let (report, faces) = report(&surface, &source, &mut *progress);
-    let certificate = arguments.certify.then(|| {
-        let goal = 2.0 * report.deviation.max * diagonal;
-        certify(&surface.patches.nets, &*task.field, goal, USUAL_CUTS, diagonal)
-    });
+    let source = task.source(diagonal);
+    let (report, faces) = report(&surface, &*source, &mut *progress);
+    let certificate = match &task.input {
+        Input::Scene(scene) if arguments.certify => {
+            let goal = 2.0 * report.deviation.max * diagonal;
+            Some(certify(&surface.patches.nets, &*scene.field, goal, USUAL_CUTS, diagonal))
+        }
+        _ => None,
+    };
+    let mesh_report = match &task.input {
+        Input::Mesh(mesh) => Some(mesh.report(&surface)),
+        Input::Scene(_) => None,
+    };
+    let measured =
+        Measured { report: &report, mesh: mesh_report.as_ref(), certificate: certificate.as_ref() };
     drop(progress);
 
     let start = Instant::now();
     let mut written = outputs.write(&surface, &faces)?;
     if let Some(path) = &arguments.report {
-        written.push(ReportFile::new(&task, &report, certificate.as_ref(), &written).write(path)?);
+        written.push(ReportFile::new(&task, &measured, &written).write(path)?);
     }
     if !arguments.quiet {
         let seconds = start.elapsed().as_secs_f64();
-        print(&summary::summary(&task, &report, certificate.as_ref(), &written, seconds))?;
+        print(&summary::summary(&task, &measured, &written, seconds))?;
         for warning in warnings::warnings(&report, &surface, &faces) {
             complain(&format!("warning: {warning}"));
         }

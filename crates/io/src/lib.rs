@@ -6,6 +6,7 @@ mod curved_mesh;
 mod gap;
 mod in_file;
 mod lattice;
+mod mesh_file;
 mod msh;
 mod node_order;
 mod obj;
@@ -30,6 +31,9 @@ pub use curved_mesh::CurvedMesh;
 pub use glam;
 pub use in_file::InFile;
 pub use lattice::SharedPointError;
+pub use mesh_file::{
+    MeshFile, MeshFileError, MeshFormat, PolygonSoup, Repairs, read_mesh, read_mesh_file, repair,
+};
 pub use msh::{MAX_MSH_ORDER, MshError, MshOptions, MshVersion, write_msh};
 pub use node_order::{node_order, quad_node_order};
 pub use obj::{

@@ -8,7 +8,7 @@ mod wishes;
 
 use basemesh::{
     FaceMap, FieldTarget, ImproveSettings, RemeshSettings, Simplified, SimplifyError,
-    SimplifySettings, TriMesh, polygonize_to_faces, simplify,
+    SimplifySettings, SurfaceTarget, TriMesh, polygonize_to_faces, simplify,
 };
 use implicit::{Aabb, ImplicitSurface};
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ use crate::memory::Memory;
 use crate::pipeline::{fit_mesh, needs_repair};
 use crate::progress::{Clock, Progress, Stage};
 use crate::settings::Settings;
-use crate::source::FieldSource;
+use crate::source::{FieldSource, FitSource};
 use crate::surface::{BaseMeshOrigin, G1Surface, Polygonized};
 pub(crate) use equalise::equalise;
 use fitted::{Fitted, Job};
@@ -71,6 +71,17 @@ impl Tolerance {
         match self.normal_deg.filter(|degrees| !(degrees.is_finite() && *degrees > 0.0)) {
             Some(degrees) => Err(FitError::NormalTolerance { degrees }),
             None => Ok(()),
+        }
+    }
+
+    /// Whether the distance can be measured on a surface with this diagonal.
+    fn check_size(&self, diagonal: f64) -> Result<(), FitError> {
+        let smallest = SMALLEST * diagonal;
+        match self.distance {
+            Distance::Absolute(value) if value < smallest => {
+                Err(FitError::DistanceTolerance { value, smallest })
+            }
+            _ => Ok(()),
         }
     }
 }
@@ -129,9 +140,50 @@ pub fn fit_to_tolerance(
 ) -> Result<G1Surface, FitError> {
     tolerance.check()?;
     let mut clock = Clock::new(progress);
-    let (source, mut fitted, origin) = start(field, region, tolerance, settings, &mut clock)?;
+    let (source, fitted, origin) = start(field, region, tolerance, settings, &mut clock)?;
+    let mut surface = adapt(fitted, &source, tolerance, settings, &mut clock)?;
+    surface.origin = BaseMeshOrigin { adaptation: surface.origin.adaptation, ..origin };
+    surface.times = clock.times;
+    Ok(surface)
+}
+
+/// Dense mesh near a surface to G1 spline with a given accuracy and few faces; see
+/// [`fit_to_tolerance`].
+///
+/// # Errors
+///
+/// [`FitError`], as for [`fit_dense_mesh`](crate::fit_dense_mesh).
+pub fn fit_dense_mesh_to_tolerance(
+    dense: TriMesh,
+    source: &dyn FitSource,
+    tolerance: &Tolerance,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<G1Surface, FitError> {
+    tolerance.check()?;
+    tolerance.check_size(dense.diagonal())?;
+    let mut clock = Clock::new(progress);
+    let first = clock.run(Stage::Simplify, dense.topology().face_count(), || {
+        first_mesh(dense, source, &settings.base_mesh.simplify)
+    })?;
     let memory = Memory::default();
-    let mut job = Job { source: &source, settings, memory, clock: &mut clock };
+    let fitted = Job { source, settings, memory, clock: &mut clock }.fit(first.mesh)?;
+    let mut surface = adapt(fitted, source, tolerance, settings, &mut clock)?;
+    surface.origin.simplified = Some(first.report);
+    surface.times = clock.times;
+    Ok(surface)
+}
+
+/// Changes the base mesh of a first fit until the accuracy is reached with few faces.
+fn adapt(
+    mut fitted: Fitted,
+    source: &dyn FitSource,
+    tolerance: &Tolerance,
+    settings: &Settings,
+    clock: &mut Clock<'_>,
+) -> Result<G1Surface, FitError> {
+    let memory = Memory::default();
+    let mut job = Job { source, settings, memory, clock };
     let mut shaping = SHAPING_ROUNDS;
     let (mut rounds, mut refining) = (1, 0);
     let mut shaped_faces = MOST_FACES;
@@ -172,12 +224,10 @@ pub fn fit_to_tolerance(
         fitted = spare(fitted, tolerance, &mut job)?;
     }
     let mut surface = fitted.surface;
-    if needs_repair(&surface, &source) {
-        surface = fit_mesh(surface.mesh, &source, settings, 0, &mut clock)?;
+    if needs_repair(&surface, source) {
+        surface = fit_mesh(surface.mesh, source, settings, 0, clock)?;
     }
-    let adaptation = Some(Adaptation { tolerance: *tolerance, met, rounds });
-    surface.origin = BaseMeshOrigin { adaptation, ..origin };
-    surface.times = clock.times;
+    surface.origin.adaptation = Some(Adaptation { tolerance: *tolerance, met, rounds });
     Ok(surface)
 }
 
@@ -195,11 +245,7 @@ fn start<'a>(
             .run(Stage::Polygonize, triangles, || polygonize_to_faces(field, region, triangles))?;
         let polygonized = Some(Polygonized::from(&dense));
         let length = dense.mesh.diagonal();
-        if let Distance::Absolute(value) = tolerance.distance
-            && value < SMALLEST * length
-        {
-            return Err(FitError::DistanceTolerance { value, smallest: SMALLEST * length });
-        }
+        tolerance.check_size(length)?;
         let source = FieldSource::new(field, length, settings.projection);
         let first = clock.run(Stage::Simplify, dense.mesh.topology().face_count(), || {
             let target = FieldTarget::new(field, length, settings.projection);
@@ -226,7 +272,7 @@ fn few_faces() -> RemeshSettings {
 /// The mesh that is fitted first, with few faces, but enough for its topology.
 fn first_mesh(
     dense: TriMesh,
-    target: &FieldTarget<'_>,
+    target: &dyn SurfaceTarget,
     settings: &SimplifySettings,
 ) -> Result<Simplified, SimplifyError> {
     let faces = dense.topology().face_count() / FIRST_REDUCTION / 2 * 2;

@@ -7,6 +7,7 @@ pub mod apatch_surface;
 mod error;
 mod folds;
 mod memory;
+pub mod mesh_surface;
 pub mod nagata_surface;
 mod objectives;
 mod pipeline;
@@ -22,7 +23,7 @@ pub mod solid_surface;
 mod source;
 mod surface;
 
-pub use adapt::{Adaptation, Distance, Tolerance, fit_to_tolerance};
+pub use adapt::{Adaptation, Distance, Tolerance, fit_dense_mesh_to_tolerance, fit_to_tolerance};
 pub use apatch;
 pub use basemesh;
 pub use bezier_core;
@@ -32,9 +33,10 @@ pub use hermite_sqp;
 pub use implicit;
 #[cfg(feature = "io")]
 pub use io;
+pub use meshfield;
 pub use nagata;
 pub use objectives::Retreat;
-pub use pipeline::{fit, fit_base_mesh, fit_source};
+pub use pipeline::{fit, fit_base_mesh, fit_dense_mesh, fit_source};
 pub use progress::{Progress, Silent, Stage, StageTimes};
 pub use region::find_region;
 pub use report::{BaseMeshReport, Report, report};

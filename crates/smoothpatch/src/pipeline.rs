@@ -2,7 +2,7 @@
 
 use basemesh::glam::DVec3;
 use basemesh::{
-    EdgeId, EdgeMap, FaceMap, FieldTarget, Foot, SurfaceTarget, TriMesh, VertexMap,
+    EdgeId, EdgeMap, FaceMap, FieldTarget, Foot, Simplified, SurfaceTarget, TriMesh, VertexMap,
     polygonize_to_faces, simplify,
 };
 use bezier_core::SurfaceJet;
@@ -51,19 +51,48 @@ pub fn fit(
         simplify(dense.mesh, &target, &settings.base_mesh.simplify)
     })?;
     let source = FieldSource::new(field, base.mesh.diagonal(), settings.projection);
-    let mut surface = equalise(base.mesh, &source, settings, &mut clock)?;
-    if needs_repair(&surface, &source) {
+    let mut surface = fit_simplified(base, &source, settings, &mut clock)?;
+    surface.origin.polygonized = Some(polygonized);
+    surface.times = clock.times;
+    Ok(surface)
+}
+
+/// A G1 spline with about [`settings.faces()`](Settings::faces) patches from a dense mesh near a surface:
+/// simplify, fit curves, fill, join.
+///
+/// # Errors
+///
+/// [`FitError`]: an open mesh, vertices without data, too few faces for the topology.
+pub fn fit_dense_mesh(
+    dense: TriMesh,
+    source: &dyn FitSource,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<G1Surface, FitError> {
+    let mut clock = Clock::new(progress);
+    let base = clock.run(Stage::Simplify, dense.topology().face_count(), || {
+        simplify(dense, source, &settings.base_mesh.simplify)
+    })?;
+    let mut surface = fit_simplified(base, source, settings, &mut clock)?;
+    surface.times = clock.times;
+    Ok(surface)
+}
+
+/// The fit of a base mesh whose faces may change, with their number kept if that is possible.
+fn fit_simplified(
+    base: Simplified,
+    source: &dyn FitSource,
+    settings: &Settings,
+    clock: &mut Clock<'_>,
+) -> Result<G1Surface, FitError> {
+    let mut surface = equalise(base.mesh, source, settings, clock)?;
+    if needs_repair(&surface, source) {
         let rounds = settings.base_mesh.repair_rounds;
-        surface = fit_mesh(surface.mesh, &source, settings, rounds, &mut clock)?;
+        surface = fit_mesh(surface.mesh, source, settings, rounds, clock)?;
     }
     let added_faces = surface.mesh.topology().face_count() - base.report.faces;
-    surface.origin = BaseMeshOrigin {
-        polygonized: Some(polygonized),
-        simplified: Some(base.report),
-        added_faces,
-        adaptation: None,
-    };
-    surface.times = clock.times;
+    let simplified = Some(base.report);
+    surface.origin = BaseMeshOrigin { simplified, added_faces, ..BaseMeshOrigin::default() };
     Ok(surface)
 }
 

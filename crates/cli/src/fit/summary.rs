@@ -3,22 +3,33 @@
 use smoothpatch::measure::Certificate;
 use smoothpatch::{Adaptation, Distance, Report, Stage, Tolerance};
 
-use super::task::{BaseMesh, Task, method_name};
+use super::Measured;
+use super::scene_task::{BaseMesh, SceneTask};
+use super::task::{Input, Task, method_name};
 use crate::output_files::Written;
 use crate::table::{Table, degrees, grid, length, of_diagonal, yes_no};
 use crate::values::region_text;
 
 pub(crate) fn summary(
     task: &Task,
-    report: &Report,
-    certificate: Option<&Certificate>,
+    measured: &Measured<'_>,
     written: &[Written],
     seconds_writing: f64,
 ) -> String {
+    let report = measured.report;
     let mut table = Table::default();
-    origin(&mut table, task);
+    match &task.input {
+        Input::Scene(scene) => origin(&mut table, scene),
+        Input::Mesh(mesh) => table.row("input", mesh.file.display()),
+    }
+    if let Some(mesh) = measured.mesh {
+        mesh.rows_of_input(&mut table);
+    }
     quality(&mut table, report);
-    if let Some(certificate) = certificate {
+    if let Some(mesh) = measured.mesh {
+        mesh.rows_of_distances(&mut table);
+    }
+    if let Some(certificate) = measured.certificate {
         proof(&mut table, certificate);
     }
     table.gap();
@@ -34,10 +45,10 @@ pub(crate) fn summary(
     for file in written {
         file.rows(&mut table, report.deviation.diagonal);
     }
-    format!("{}, {} method\n{table}", task.chosen.scene.name, method_name(task.method))
+    format!("{}, {} method\n{table}", task.name(), method_name(task.method))
 }
 
-fn origin(table: &mut Table, task: &Task) {
+fn origin(table: &mut Table, task: &SceneTask) {
     match &task.base {
         BaseMesh::Made { region, .. } | BaseMesh::Adapted { region, .. } => {
             table.row("region", region_text(region));

@@ -1,87 +1,75 @@
-//! What is to be fitted and how: options and scene file put together.
+//! What is to be fitted and how.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use anyhow::{anyhow, bail};
-use smoothpatch::basemesh::{PolygonizeError, TriMesh};
-use smoothpatch::implicit::{Aabb, ImplicitSurface};
-use smoothpatch::io::read_obj_file;
-use smoothpatch::scene::{base_mesh_of, field_of, region_of};
-use smoothpatch::{
-    Distance, FitError, G1Surface, Method, Progress, Settings, Tolerance, find_region, fit,
-    fit_base_mesh, fit_to_tolerance,
-};
+use smoothpatch::mesh_surface::MeshSource;
+use smoothpatch::{FieldSource, FitSource, G1Surface, Method, Progress, Settings};
 
 use super::FitArguments;
-use crate::surface::ChosenScene;
-use crate::values::region_text;
+use super::mesh_task::{MeshTask, is_mesh};
+use super::scene_task::SceneTask;
 
 /// One surface and everything that decides how it is fitted.
 pub(crate) struct Task {
-    pub(crate) chosen: ChosenScene,
-    pub(crate) field: Box<dyn ImplicitSurface>,
-    pub(crate) base: BaseMesh,
+    pub(crate) input: Input,
     pub(crate) method: Method,
     pub(crate) settings: Settings,
 }
 
-/// Where the base mesh comes from.
-pub(crate) enum BaseMesh {
-    /// Made by polygonizing and simplifying.
-    Made { region: Aabb, faces: usize },
-    /// Made and changed until an accuracy is reached.
-    Adapted { region: Aabb, tolerance: Tolerance },
-    /// Read from a file.
-    Given { file: PathBuf, mesh: TriMesh },
+/// Where the surface comes from.
+pub(crate) enum Input {
+    /// The zero set of a function.
+    Scene(Box<SceneTask>),
+    /// A mesh.
+    Mesh(Box<MeshTask>),
 }
 
 impl Task {
     pub(crate) fn new(arguments: &FitArguments) -> anyhow::Result<Self> {
-        let chosen = arguments
-            .surface
-            .scene(arguments.scene.as_deref())?
-            .ok_or_else(|| anyhow!("no surface is given"))?;
-        let field = field_of(&chosen.scene.surface)?;
-        let base = if let Some(tolerance) = tolerance(arguments) {
-            refuse_base_mesh(arguments, &chosen)?;
-            BaseMesh::Adapted { region: region(arguments, &chosen, &*field)?, tolerance }
-        } else if let Some((file, mesh)) = given_mesh(arguments, &chosen)? {
-            BaseMesh::Given { file, mesh }
-        } else {
-            BaseMesh::Made {
-                region: region(arguments, &chosen, &*field)?,
-                faces: arguments.faces.unwrap_or(chosen.scene.faces),
-            }
+        let input = match arguments.input.as_deref().filter(|file| is_mesh(file)) {
+            Some(file) => Input::Mesh(Box::new(MeshTask::new(arguments, file)?)),
+            None => Input::Scene(Box::new(SceneTask::new(arguments)?)),
+        };
+        let faces = match &input {
+            Input::Scene(scene) => scene.base.faces(),
+            Input::Mesh(mesh) => mesh.faces(),
         };
         let method = arguments.method.into();
-        let settings = Settings::with_faces(base.faces()).with_method(method);
-        Ok(Self { chosen, field, base, method, settings })
+        let settings = Settings::with_faces(faces).with_method(method);
+        Ok(Self { input, method, settings })
     }
 
     /// The whole pipeline.
     pub(crate) fn fit(&self, progress: &mut dyn Progress) -> anyhow::Result<G1Surface> {
-        let fitted = match &self.base {
-            BaseMesh::Made { region, .. } => fit(&*self.field, region, &self.settings, progress),
-            BaseMesh::Adapted { region, tolerance } => {
-                fit_to_tolerance(&*self.field, region, tolerance, &self.settings, progress)
-            }
-            BaseMesh::Given { mesh, .. } => {
-                fit_base_mesh(&*self.field, mesh.clone(), &self.settings, progress)
-            }
-        };
-        fitted.map_err(|error| match error {
-            FitError::Polygonize(error) => explain(&error),
-            other => other.into(),
-        })
+        match &self.input {
+            Input::Scene(scene) => scene.fit(&self.settings, progress),
+            Input::Mesh(mesh) => mesh.fit(&self.settings, progress),
+        }
+    }
+
+    /// What the patches are compared with; `diagonal` is the size of their surface.
+    pub(crate) fn source(&self, diagonal: f64) -> Box<dyn FitSource + '_> {
+        let projection = self.settings.projection;
+        match &self.input {
+            Input::Scene(scene) => Box::new(FieldSource::new(&*scene.field, diagonal, projection)),
+            Input::Mesh(mesh) => Box::new(MeshSource::new(&mesh.field, projection)),
+        }
+    }
+
+    /// A name for the surface.
+    pub(crate) fn name(&self) -> String {
+        match &self.input {
+            Input::Scene(scene) => scene.chosen.scene.name.clone(),
+            Input::Mesh(mesh) => mesh.name(),
+        }
     }
 
     /// Files that must not be overwritten with results.
     pub(crate) fn files_read(&self) -> Vec<&Path> {
-        let mesh = match &self.base {
-            BaseMesh::Given { file, .. } => Some(file.as_path()),
-            BaseMesh::Made { .. } | BaseMesh::Adapted { .. } => None,
-        };
-        self.chosen.file.as_deref().into_iter().chain(mesh).collect()
+        match &self.input {
+            Input::Scene(scene) => scene.files_read(),
+            Input::Mesh(mesh) => vec![&mesh.file],
+        }
     }
 }
 
@@ -90,102 +78,5 @@ pub(crate) fn method_name(method: Method) -> &'static str {
     match method {
         Method::Published => "published",
         _ => "refined",
-    }
-}
-
-impl BaseMesh {
-    fn faces(&self) -> usize {
-        match self {
-            Self::Made { faces, .. } => *faces,
-            Self::Adapted { .. } => 0,
-            Self::Given { mesh, .. } => mesh.topology().face_count(),
-        }
-    }
-}
-
-/// Distance that is asked for with a normal tolerance alone, in diagonals.
-const USUAL_DISTANCE: f64 = 1e-4;
-
-/// The accuracy that is asked for, if any.
-fn tolerance(arguments: &FitArguments) -> Option<Tolerance> {
-    let distance = match (arguments.tolerance, arguments.absolute) {
-        (Some(length), true) => Distance::Absolute(length),
-        (Some(part), false) => Distance::Relative(part),
-        (None, _) => Distance::Relative(USUAL_DISTANCE),
-    };
-    let normal_deg = arguments.normal_tolerance;
-    (arguments.tolerance.is_some() || normal_deg.is_some())
-        .then_some(Tolerance { distance, normal_deg })
-}
-
-/// The parser refuses the option `--base-mesh`; this is about the scene's.
-fn refuse_base_mesh(arguments: &FitArguments, chosen: &ChosenScene) -> anyhow::Result<()> {
-    let Some(scene) = chosen.file.as_ref().filter(|_| chosen.scene.base_mesh.is_some()) else {
-        return Ok(());
-    };
-    let option = match arguments.tolerance {
-        Some(_) => "--tolerance",
-        None => "--normal-tolerance",
-    };
-    bail!(
-        "{}: the scene has a base mesh, whose faces become the patches as they are, but {option} \
-         asks for an accuracy; leave one of them out",
-        scene.display()
-    )
-}
-
-/// The base mesh that the options or the scene name, unless a region is given to look in.
-fn given_mesh(
-    arguments: &FitArguments,
-    chosen: &ChosenScene,
-) -> anyhow::Result<Option<(PathBuf, TriMesh)>> {
-    let given = match (&arguments.base_mesh, &chosen.file) {
-        (Some(file), _) => Some((file.clone(), read_obj_file(file)?)),
-        (None, Some(scene_file)) => {
-            chosen.scene.base_mesh_beside(scene_file).zip(base_mesh_of(&chosen.scene, scene_file)?)
-        }
-        (None, None) => None,
-    };
-    let Some((file, mesh)) = given else { return Ok(None) };
-    let faces = mesh.topology().face_count();
-    if let Some(wanted) = arguments.faces.filter(|&wanted| wanted != faces) {
-        bail!(
-            "{}: the base mesh has {faces} faces, which become the patches, but --faces asks for \
-             {wanted}; leave one of them out",
-            file.display()
-        );
-    }
-    if arguments.region.is_some() {
-        bail!("{}: with a base mesh no region is searched; leave --region out", file.display());
-    }
-    Ok(Some((file, mesh)))
-}
-
-fn region(
-    arguments: &FitArguments,
-    chosen: &ChosenScene,
-    field: &dyn ImplicitSurface,
-) -> anyhow::Result<Aabb> {
-    if let Some(region) = arguments.region {
-        return Ok(region);
-    }
-    if let Some(region) = region_of(&chosen.scene)? {
-        return Ok(region);
-    }
-    find_region(field).map_err(|error| {
-        anyhow!(
-            "no region is given, and the search around the origin found none (--region sets it): {}",
-            explain(&error)
-        )
-    })
-}
-
-/// The message, with what to type if another region would help.
-fn explain(error: &PolygonizeError) -> anyhow::Error {
-    match error {
-        PolygonizeError::LeavesRegion { suggested, .. } => {
-            anyhow!("{error}\n  try --region {}", region_text(suggested))
-        }
-        _ => anyhow!("{error}"),
     }
 }

@@ -7,6 +7,7 @@ mod check;
 mod fit;
 mod formats;
 mod help;
+mod meshes;
 mod nagata;
 mod nagata_bad_input;
 mod query;

@@ -37,7 +37,7 @@ fn parse(bytes: &[u8]) -> Result<Faces, ObjReadError> {
             Statement::Vertex(words) => {
                 read.positions.push(position(line, read.positions.len() + 1, words)?);
             }
-            Statement::Normal(_) => {}
+            Statement::Normal(_) | Statement::Group(_) => {}
             Statement::Face(words) => {
                 let (face, count) = (read.faces.len() + 1, read.positions.len());
                 let vertex = |text| {

@@ -111,6 +111,7 @@ fn parse(bytes: &[u8], large_faces: LargeFaces) -> Result<Polygons, ObjReadError
         Statement::Vertex(words) => parser.vertex(line, words),
         Statement::Normal(words) => parser.normal(line, words),
         Statement::Face(words) => parser.face(line, words, large_faces),
+        Statement::Group(_) => Ok(()),
     })?;
     parser.finish()
 }

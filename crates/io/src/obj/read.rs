@@ -45,7 +45,7 @@ fn parse(bytes: &[u8]) -> Result<TriMesh, ObjReadError> {
     let mut parser = Parser::default();
     for_each_statement(bytes, |line, statement| match statement {
         Statement::Vertex(words) => parser.vertex(line, words),
-        Statement::Normal(_) => Ok(()),
+        Statement::Normal(_) | Statement::Group(_) => Ok(()),
         Statement::Face(words) => parser.face(line, words),
     })?;
     parser.finish()

@@ -7,11 +7,9 @@ use glam::DVec3;
 use super::error::ObjReadError;
 
 /// Statements that say nothing about the faces of a mesh.
-const SKIPPED: [&str; 19] = [
+const SKIPPED: [&str; 17] = [
     "vt",
     "vp",
-    "g",
-    "o",
     "s",
     "mg",
     "l",
@@ -34,6 +32,8 @@ pub(super) enum Statement<'t> {
     Vertex(SplitWhitespace<'t>),
     Normal(SplitWhitespace<'t>),
     Face(SplitWhitespace<'t>),
+    /// The name of the faces that follow.
+    Group(SplitWhitespace<'t>),
 }
 
 /// Hands all statements of a file to `visit`, with their line; continued lines are put together.
@@ -76,6 +76,7 @@ fn statement(line: usize, text: &str) -> Result<Option<Statement<'_>>, ObjReadEr
         Some("v") => Ok(Some(Statement::Vertex(words))),
         Some("vn") => Ok(Some(Statement::Normal(words))),
         Some("f") => Ok(Some(Statement::Face(words))),
+        Some("g" | "o") => Ok(Some(Statement::Group(words))),
         Some(other) if !SKIPPED.contains(&other) => {
             Err(ObjReadError::Statement { line, keyword: other.to_owned() })
         }

@@ -10,7 +10,7 @@ use crate::memory::Memory;
 use crate::pipeline::fit_again;
 use crate::progress::{Clock, Stage};
 use crate::settings::Settings;
-use crate::source::FieldSource;
+use crate::source::FitSource;
 use crate::surface::G1Surface;
 
 /// The fit of a base mesh with the same number of faces on which the deviation is spread more
@@ -21,7 +21,7 @@ use crate::surface::G1Surface;
 /// of largest distance and largest normal angle.
 pub(crate) fn equalise(
     mesh: TriMesh,
-    source: &FieldSource<'_>,
+    source: &dyn FitSource,
     settings: &Settings,
     clock: &mut Clock<'_>,
 ) -> Result<G1Surface, FitError> {

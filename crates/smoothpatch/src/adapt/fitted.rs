@@ -10,7 +10,7 @@ use crate::memory::Memory;
 use crate::pipeline::fit_again;
 use crate::progress::{Clock, Stage};
 use crate::settings::Settings;
-use crate::source::FieldSource;
+use crate::source::FitSource;
 use crate::surface::G1Surface;
 
 /// A surface and the deviation of each of its patches.
@@ -20,14 +20,14 @@ pub(super) struct Fitted {
 }
 
 /// What every fit of one surface needs.
-pub(super) struct Job<'a, 'b, 'p> {
-    pub(super) source: &'a FieldSource<'b>,
+pub(super) struct Job<'a, 'p> {
+    pub(super) source: &'a dyn FitSource,
     pub(super) settings: &'a Settings,
     pub(super) memory: Memory,
     pub(super) clock: &'a mut Clock<'p>,
 }
 
-impl Job<'_, '_, '_> {
+impl Job<'_, '_> {
     pub(super) fn fit(&mut self, mesh: TriMesh) -> Result<Fitted, FitError> {
         let (surface, deviations) =
             fit_again(mesh, self.source, self.settings, &mut self.memory, self.clock)?;

@@ -19,7 +19,7 @@ const KEPT: [usize; 4] = [60, 77, 88, 94];
 pub(super) fn spare(
     mut fitted: Fitted,
     tolerance: &Tolerance,
-    job: &mut Job<'_, '_, '_>,
+    job: &mut Job<'_, '_>,
 ) -> Result<Fitted, FitError> {
     for kept in KEPT {
         loop {
@@ -41,7 +41,7 @@ fn remeshed(
     fitted: &Fitted,
     fewer: usize,
     tolerance: &Tolerance,
-    job: &mut Job<'_, '_, '_>,
+    job: &mut Job<'_, '_>,
 ) -> Result<Option<Fitted>, FitError> {
     let errors = errors(&fitted.surface, &fitted.deviations, job.settings.projection);
     let wishes = even_wishes(&fitted.surface.mesh, &errors, aim_for(&errors, fewer as f64));

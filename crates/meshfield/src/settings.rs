@@ -1,0 +1,49 @@
+//! How jets are fitted.
+
+use crate::error::JetError;
+use crate::polynomial::MAX_DEGREE;
+
+/// Settings of the fit at each vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct JetSettings {
+    /// Degree of the polynomials, 2 to 4; default 4. Lower where the neighbours do not suffice.
+    pub degree: usize,
+    /// Points used, at least, for each coefficient; default 1.25.
+    pub points_per_coefficient: f64,
+    /// Points count with this power of the inverse distance; default 2. Weights do not change the
+    /// order of accuracy; they keep far points from spoiling near ones on coarse meshes.
+    pub distance_power: i32,
+    /// Neighbours whose normal turns by more than this from that of the vertex are not used.
+    /// Unit: radians; default 75°.
+    pub max_turning: f64,
+    /// Where the polynomial's normal at a neighbour along an edge differs by more than this from the mean
+    /// normal of the faces there, the mesh does not resolve the surface, and a lower degree is taken.
+    /// Unit: radians; default 20°.
+    pub max_normal_error: f64,
+    /// Largest condition number of the scaled equations; a lower degree is taken beyond. Default 1e4.
+    pub max_condition: f64,
+}
+
+impl Default for JetSettings {
+    fn default() -> Self {
+        Self {
+            degree: 4,
+            points_per_coefficient: 1.25,
+            distance_power: 2,
+            max_turning: 75_f64.to_radians(),
+            max_normal_error: 20_f64.to_radians(),
+            max_condition: 1e4,
+        }
+    }
+}
+
+impl JetSettings {
+    pub(crate) fn check(&self) -> Result<(), JetError> {
+        if (2..=MAX_DEGREE).contains(&self.degree) {
+            Ok(())
+        } else {
+            Err(JetError::Degree { degree: self.degree, largest: MAX_DEGREE })
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! How well the jets of a mesh fit.
+
+use meshfield::MeshField;
+use serde::{Deserialize, Serialize};
+
+/// The fits at all vertices of a mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct JetSummary {
+    /// Number of vertices with polynomials of each degree, from 2 to 4.
+    pub by_degree: [usize; 3],
+    /// Largest condition number of the scaled equations.
+    pub max_condition: f64,
+    /// Largest distance of neighbours from the polynomial of a vertex (a weighted root mean square), over
+    /// their radius.
+    pub max_residual: f64,
+    /// The root mean square of all residuals.
+    pub rms_residual: f64,
+    /// The vertex with the largest residual, counted from 0.
+    pub worst_vertex: usize,
+}
+
+/// Summary of the fits of a mesh.
+#[must_use]
+pub fn jet_summary(field: &MeshField) -> JetSummary {
+    let mut summary = JetSummary::default();
+    for (vertex, jet) in field.jets().iter() {
+        let quality = jet.quality();
+        summary.by_degree[quality.degree - 2] += 1;
+        summary.max_condition = summary.max_condition.max(quality.condition);
+        summary.rms_residual += quality.residual.powi(2);
+        if quality.residual > summary.max_residual {
+            summary.max_residual = quality.residual;
+            summary.worst_vertex = vertex.index();
+        }
+    }
+    summary.rms_residual = (summary.rms_residual / field.jets().len() as f64).sqrt();
+    summary
+}

@@ -1,0 +1,129 @@
+//! G1 splines over meshes.
+
+use smoothpatch::basemesh::glam::DVec3;
+use smoothpatch::basemesh::{FaceMap, FieldTarget, TriMesh};
+use smoothpatch::bezier_core::{MultiIndex, SepticTriangle};
+use smoothpatch::implicit::{ProjectionSettings, Torus};
+use smoothpatch::measure::deviation;
+use smoothpatch::mesh_surface::{
+    MeshBase, MeshSource, MeshSurfaceError, fit_mesh_field, mesh_distances, mesh_field,
+};
+use smoothpatch::meshfield::{JetSettings, MeshField, subdivided};
+use smoothpatch::{Distance, G1Surface, Settings, Silent, Tolerance, report};
+use testkit::meshes::{icosphere, torus_grid};
+
+fn field(mesh: TriMesh) -> MeshField {
+    mesh_field(mesh, &JetSettings::default(), 60_f64.to_radians()).expect("a smooth mesh")
+}
+
+fn fit(field: &MeshField, base: MeshBase, faces: usize) -> G1Surface {
+    fit_mesh_field(field, base, &Settings::with_faces(faces), &mut Silent).expect("a surface")
+}
+
+fn check_smooth(field: &MeshField, surface: &G1Surface) {
+    let source = MeshSource::new(field, Settings::with_faces(0).projection);
+    let (report, _) = report(surface, &source, &mut Silent);
+    assert!(report.continuity.g1_angle_deg < 1e-9, "{:?}", report.continuity);
+    assert!(report.row_residual < 1e-12, "{}", report.row_residual);
+    assert_eq!((report.deviation.folded.len(), report.deviation.failed_samples), (0, 0));
+}
+
+/// Largest distance from the torus, over the diagonal.
+fn from_torus(surface: &G1Surface, torus: &Torus) -> f64 {
+    let diagonal = surface.mesh.diagonal();
+    let target = FieldTarget::new(torus, diagonal, ProjectionSettings::default());
+    deviation(&surface.patches.nets, &target, diagonal).0.max
+}
+
+#[test]
+fn kept_vertices_are_met_and_the_torus_is_close() {
+    let torus = Torus { major_radius: 3.0, minor_radius: 1.0 };
+    let mut errors = Vec::new();
+    for n in [12, 24] {
+        let field = field(torus_grid([3.0, 1.0], 2 * n, n));
+        let surface = fit(&field, MeshBase::Keep, 0);
+        check_smooth(&field, &surface);
+        assert_eq!(surface.mesh, *field.mesh(), "all triangles become patches");
+        let distances = mesh_distances(field.mesh(), &surface.patches.nets);
+        assert!(distances.vertices.max < 1e-14, "{distances:?}");
+        errors.push(from_torus(&surface, &torus));
+    }
+    let order = (errors[0] / errors[1]).log2();
+    assert!(order > 4.0, "order {order:.2} of {errors:?}");
+    assert!(errors[1] < 1e-4, "{errors:?}");
+}
+
+#[test]
+fn a_number_of_faces_more_or_less_than_the_mesh_has() {
+    let torus = Torus { major_radius: 3.0, minor_radius: 1.0 };
+    let field = field(torus_grid([3.0, 1.0], 40, 20));
+    for faces in [300, 2000] {
+        let surface = fit(&field, MeshBase::Faces, faces);
+        check_smooth(&field, &surface);
+        assert_eq!(surface.mesh.topology().face_count(), faces);
+        assert!(from_torus(&surface, &torus) < 3e-4, "{}", from_torus(&surface, &torus));
+    }
+}
+
+#[test]
+fn a_tolerance() {
+    let field = field(icosphere(3));
+    let tolerance = Tolerance { distance: Distance::Relative(1e-4), normal_deg: None };
+    let surface = fit(&field, MeshBase::Tolerance(tolerance), 0);
+    check_smooth(&field, &surface);
+    assert!(surface.origin.adaptation.is_some_and(|adaptation| adaptation.met));
+    assert!(surface.mesh.topology().face_count() < 200, "few patches are enough");
+}
+
+#[test]
+fn what_is_not_smooth_is_refused_with_its_edges() {
+    let jets = JetSettings::default();
+    let octahedron = icosphere(0);
+    let error = mesh_field(octahedron.clone(), &jets, 0.5).expect_err("an icosahedron is sharp");
+    let MeshSurfaceError::Creases { edges, largest_deg, .. } = &error else { panic!("{error}") };
+    assert_eq!(edges.len(), octahedron.topology().edge_count());
+    assert!((largest_deg - 41.8).abs() < 0.1, "{largest_deg}");
+
+    let whole = icosphere(2);
+    let faces = whole.face_indices()[1..].to_vec();
+    let open = TriMesh::new(whole.positions().as_slice().to_vec(), &faces).expect("a mesh");
+    let error = mesh_field(open, &jets, 1.0).expect_err("a hole").to_string();
+    assert!(error.starts_with("the mesh is open: 3 edges have one face only, "), "{error}");
+}
+
+#[test]
+fn cut_triangles_are_the_same_surface() {
+    let mesh = torus_grid([3.0, 1.0], 12, 6);
+    let cut = subdivided(&mesh);
+    assert_eq!(cut.topology().face_count(), 4 * mesh.topology().face_count());
+    assert_eq!(cut.topology().euler_characteristic(), 0);
+    assert!(cut.topology().is_closed());
+}
+
+/// A flat patch over the unit triangle; points above it, and beside its edges and corners.
+#[test]
+fn distances_of_points_beside_a_patch() {
+    let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    // flat, but not with the regular parameters
+    let net = SepticTriangle::from_fn(|MultiIndex { i, j, k }| {
+        let [u, v, w] = [i, j, k].map(|n| n as f64 / 7.0);
+        let bend = 0.3 * u * v * w;
+        a * (u - bend) + b * (v + bend) + c * w
+    });
+    let nets = FaceMap::from_vec(vec![net]);
+    let points = [
+        (DVec3::new(0.3, 0.2, 0.5), 0.5),
+        (DVec3::new(0.4, -0.25, 0.0), 0.25),
+        (DVec3::new(0.75, 0.75, 0.0), 0.5 / 2.0_f64.sqrt()),
+        (DVec3::new(-0.3, -0.4, 1.2), 1.3),
+        (DVec3::new(0.1, 0.1, 0.0), 0.0),
+        (DVec3::new(0.6, 0.3, 0.0), 0.0),
+    ];
+    for (point, expected) in points {
+        let [p, q, r] = [point, point + DVec3::X * 1e-9, point + DVec3::Y * 1e-9];
+        let mesh = TriMesh::new(vec![p, q, r], &[[0, 1, 2]]).expect("a small triangle");
+        let found = mesh_distances(&mesh, &nets);
+        let distance = found.vertices.max * found.diagonal;
+        assert!((distance - expected).abs() < 1e-8, "{point}: {distance}, not {expected}");
+    }
+}
