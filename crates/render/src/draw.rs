@@ -17,8 +17,10 @@ use crate::visible::{Band, OUTER, SAMPLES, Seen};
 const BAND: usize = 16;
 /// Outer samples of a pixel whose colours differ by less, in linear light, stand for all.
 const ALIKE: f64 = 0.02;
-/// Half the width of edges, in pixels.
-const HALF_LINE: f64 = 0.55;
+/// Half the width of edges, in pixels; half of a line is on each of the two patches.
+const HALF_LINE: f64 = 0.5;
+/// How much of the surface is seen through an edge.
+const THROUGH: f64 = 0.25;
 
 /// How patches are drawn.
 #[derive(Clone, Copy, Debug)]
@@ -134,7 +136,7 @@ impl Painter<'_> {
         if distance * self.camera.pixels_per_length > HALF_LINE {
             return colour;
         }
-        self.line_colour()
+        self.line_colour().mix(colour, THROUGH)
     }
 
     /// Edges must be seen on black and white stripes.

@@ -18,7 +18,10 @@ pub(crate) fn draw(
     let background = Colour::grey(1.0);
     let legend = shading.scale.map(|scale| legend(&scale, height, background));
     let legend_width = legend.as_ref().map_or(0, |legend| legend.size()[0]);
-    let panel = [width.saturating_sub(legend_width) / sources.len(), height];
+    // two surfaces do not touch each other when they fill their panels
+    let between = if sources.len() > 1 { width / 50 } else { 0 };
+    let room = width.saturating_sub(legend_width + between * (sources.len() - 1));
+    let panel = [room / sources.len(), height];
     if panel[0] < height / 8 {
         return Err(anyhow!(
             "--size {width}x{height}: the picture is too narrow for what it must show"
@@ -41,7 +44,7 @@ pub(crate) fn draw(
             draw_patches(*patches, &camera, panel, &style)
         });
         let drawn = drawn.map_err(|error| anyhow!("{}: {error}", source.name))?;
-        whole.paste(&drawn, [file * panel[0], 0]);
+        whole.paste(&drawn, [file * (panel[0] + between), 0]);
     }
     if let Some(legend) = legend {
         whole.paste(&legend, [width - legend_width, 0]);

@@ -6,7 +6,7 @@ use crate::workplace::Workplace;
 fn every_help_has_examples_and_exit_codes() {
     let place = Workplace::new();
     for line in
-        ["--help", "fit --help", "check --help", "nagata --help", "apatch --help", "shapes --help"]
+        ["--help", "fit --help", "check --help", "nagata --help", "apatch --help", "render --help", "shapes --help"]
     {
         let help = place.succeed(line);
         for part in ["Examples:\n  smoothpatch ", "Exit codes:\n  0  success"] {

@@ -10,6 +10,7 @@ mod help;
 mod nagata;
 mod nagata_bad_input;
 mod query;
+mod render;
 mod shapes;
 mod solids;
 mod workplace;
