@@ -41,10 +41,33 @@ impl Table {
         line(&self.rows[0]) + &rule + &self.rows[1..].iter().map(line).collect::<String>()
     }
 
+    /// A table of a page for browsers; rows whose last cell is `FAIL` are marked.
+    pub(crate) fn html(&self) -> String {
+        let cells = |row: &Vec<String>, tag: &str| -> String {
+            row.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect()
+        };
+        let line = |row: &Vec<String>| {
+            let failed = row.last().is_some_and(|cell| cell == "FAIL");
+            let class = if failed { " class=\"fail\"" } else { "" };
+            format!("<tr{class}>{}</tr>\n", cells(row, "td"))
+        };
+        let body: String = self.rows[1..].iter().map(line).collect();
+        let head = cells(&self.rows[0], "th");
+        format!(
+            "<div class=\"wide\"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n\
+             </table></div>\n"
+        )
+    }
+
     fn widths(&self) -> Vec<usize> {
         let width = |column: usize| self.rows.iter().map(|row| row[column].chars().count()).max();
         (0..self.rows[0].len()).map(|column| width(column).unwrap_or(0)).collect()
     }
+}
+
+/// Text that browsers show as it is.
+pub(crate) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Two digits and an exponent, or a plain zero.
@@ -55,6 +78,15 @@ pub(crate) fn scientific(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pages_show_text_as_it_is_and_mark_failures() {
+        let mut table = Table::new(&["a", "b"]);
+        table.add(vec!["1 < 2 & 3".into(), "FAIL".into()]);
+        let html = table.html();
+        assert!(html.contains("<td>1 &lt; 2 &amp; 3</td>"), "{html}");
+        assert!(html.contains("<tr class=\"fail\">"), "{html}");
+    }
 
     #[test]
     fn columns_line_up() {

@@ -3,6 +3,7 @@
 mod bounds;
 mod cases;
 mod golden;
+mod html;
 mod measures;
 mod present;
 
@@ -35,6 +36,10 @@ pub(crate) struct Options {
     /// Where to write the figures; by default target/verify/verify.json.
     #[arg(long, value_name = "PATH")]
     json: Option<PathBuf>,
+    /// Also write everything as one page for browsers, with plots of convergence and a picture of each
+    /// scene; by default target/verify/verify.html.
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    html: Option<Option<PathBuf>>,
     /// Take the measured figures as the golden numbers.
     #[arg(long)]
     bless: bool,
@@ -110,11 +115,15 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
         golden.write(&golden_file).with_context(|| golden_file.display().to_string())?;
         println!("golden numbers written to {}", golden_file.display());
     }
-    let good_study = match options.full {
-        Some(part) => study::run(part)?,
-        None => true,
-    };
-    Ok(good && good_study)
+    let study = options.full.map(study::run).transpose()?;
+    let good = good && study.as_ref().is_none_or(|study| study.good);
+    if let Some(path) = &options.html {
+        let convergence = study.map_or(Vec::new(), |study| study.convergence);
+        let page =
+            html::Page { good, rows: &rows, schemes: &scheme_rows, cases: &cases, convergence };
+        page.write(path.as_deref())?;
+    }
+    Ok(good)
 }
 
 /// What is measured.

@@ -8,6 +8,7 @@ use crate::fit::FitArguments;
 use crate::join::JoinArguments;
 use crate::nagata::NagataArguments;
 use crate::query::QueryArguments;
+use crate::render::RenderArguments;
 use crate::shapes::ShapesArguments;
 
 /// Fits implicit surfaces with G1 patches of degree 7, curves meshes with normals, and measures the
@@ -27,6 +28,7 @@ pub(crate) enum Command {
     Apatch(ApatchArguments),
     Join(JoinArguments),
     Query(QueryArguments),
+    Render(RenderArguments),
     Shapes(ShapesArguments),
 }
 
@@ -44,6 +46,7 @@ Examples:
   smoothpatch check torus.vtu --shape torus --max-deviation 1e-5
   smoothpatch nagata mesh.obj -o curved.vtu
   smoothpatch apatch mesh.obj -o smooth.vtu
+  smoothpatch render torus.vtu -o torus.png
   smoothpatch query mesh.obj --points points.csv
   smoothpatch shapes
 

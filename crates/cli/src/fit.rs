@@ -93,6 +93,11 @@ pub(crate) struct FitArguments {
     #[arg(short, long = "output", value_name = "FILE", required = true)]
     outputs: Vec<PathBuf>,
 
+    /// Also write the patches as they are before they are joined: without gaps, but with kinks along
+    /// the edges. `smoothpatch render --compare` sets both side by side
+    #[arg(long, value_name = "FILE.vtu")]
+    before_join: Option<PathBuf>,
+
     /// Kind of cells in .vtu files; both hold the patches exactly, up to rounding for `lagrange`
     #[arg(long, value_enum, default_value_t = CellName::Bezier)]
     cells: CellName,
@@ -200,6 +205,9 @@ pub(crate) fn run(arguments: &FitArguments) -> anyhow::Result<Outcome> {
 
     let start = Instant::now();
     let mut written = outputs.write(&surface, &faces)?;
+    written.extend(outputs.write_before_join(surface.mesh.topology(), || {
+        surface.before_join(&*source, &task.settings)
+    })?);
     if let Some(path) = &arguments.report {
         written.push(ReportFile::new(&task, &measured, &written).write(path)?);
     }

@@ -13,6 +13,7 @@ mod nagata;
 mod output_files;
 mod progress;
 mod query;
+mod render;
 mod shapes;
 mod stdout;
 mod surface;
@@ -34,6 +35,7 @@ fn main() -> ExitCode {
         Command::Apatch(arguments) => apatch::run(&arguments),
         Command::Join(arguments) => join::run(&arguments),
         Command::Query(arguments) => query::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
         Command::Shapes(arguments) => shapes::run(&arguments),
     };
     exit::code(result)

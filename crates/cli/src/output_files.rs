@@ -13,6 +13,8 @@ use crate::table::{Table, bytes, of_diagonal};
 pub(crate) struct OutputFiles {
     pub(crate) surfaces: Vec<(Format, PathBuf)>,
     pub(crate) report: Option<PathBuf>,
+    /// Patches of an earlier stage.
+    pub(crate) before_join: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,7 +88,17 @@ impl OutputFiles {
         {
             bail!("--report {}: the name of a report must end with .json", path.display());
         }
-        Ok(Self { surfaces, report: report.map(Path::to_owned) })
+        Ok(Self { surfaces, report: report.map(Path::to_owned), before_join: None })
+    }
+
+    /// Also the patches before they are joined.
+    pub(crate) fn with_before_join(self, path: Option<&Path>) -> anyhow::Result<Self> {
+        if let Some(path) = path
+            && extension(path) != "vtu"
+        {
+            bail!("--before-join {}: the name must end with .vtu", path.display());
+        }
+        Ok(Self { before_join: path.map(Path::to_owned), ..self })
     }
 
     /// One table, which is written by name alone.
@@ -99,11 +111,11 @@ impl OutputFiles {
 
     /// One file of another kind.
     pub(crate) fn single(path: &Path) -> Self {
-        Self { surfaces: Vec::new(), report: Some(path.to_owned()) }
+        Self { surfaces: Vec::new(), report: Some(path.to_owned()), before_join: None }
     }
 
     fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        self.surfaces.iter().map(|(_, path)| path).chain(&self.report)
+        self.surfaces.iter().map(|(_, path)| path).chain(&self.report).chain(&self.before_join)
     }
 
     /// Checks that every file can be written.

@@ -13,6 +13,7 @@ mod obj;
 mod off;
 mod patch_surface;
 mod patterns;
+mod png;
 mod polygon;
 mod samples;
 mod scene;
@@ -43,6 +44,7 @@ pub use obj::{
 };
 pub use off::{Faces, OffReadError, read_off, read_off_file};
 pub use patch_surface::{PatchNet, PatchSurface, PatchSurfaceError};
+pub use png::{PngError, write_png};
 pub use polygon::Polygon;
 pub use samples::{CreasedTessellation, FacePoint, Samples};
 pub use scene::{Bounds, Method, Region, Scene, SceneError, SceneSurface};

@@ -31,7 +31,8 @@ fn volume(file: &MeshFile) -> f64 {
 
 #[test]
 fn polygons_normals_and_groups() {
-    let with_normals = CUBE.replace("f 4 3 2 1\n", "vn 0 0 -2\ng floor\nf 4//1 3//1 2//1 1//1\ng walls\n");
+    let with_normals =
+        CUBE.replace("f 4 3 2 1\n", "vn 0 0 -2\ng floor\nf 4//1 3//1 2//1 1//1\ng walls\n");
     let file = obj(&with_normals);
     assert_eq!((file.mesh.topology().face_count(), file.repairs.polygons), (12, 6));
     assert!((volume(&file) - 1.0).abs() < 1e-15, "nothing is turned: {}", volume(&file));
@@ -99,7 +100,9 @@ fn what_is_not_safe_is_refused_with_numbers() {
 fn the_same_cube_in_all_formats() {
     let cube = obj(CUBE);
     let (positions, faces) = (cube.mesh.positions().as_slice(), cube.mesh.face_indices());
-    let rows = |points: &[DVec3]| points.iter().map(|p| format!("{} {} {}\n", p.x, p.y, p.z)).collect::<String>();
+    let rows = |points: &[DVec3]| {
+        points.iter().map(|p| format!("{} {} {}\n", p.x, p.y, p.z)).collect::<String>()
+    };
     let triangles = faces.iter().map(|[a, b, c]| format!("3 {a} {b} {c}\n")).collect::<String>();
     let off = format!("OFF\n8 12 0\n{}{triangles}", rows(positions));
     let ply = format!(
@@ -144,7 +147,11 @@ fn damaged_files() {
         ("3 0 1 2\n", "3 0 1 -1\n", "face 0 uses vertex -1, but there are only 3 vertices"),
         ("3 0 1 2\n", "2 0 1\n", "face 0 has 2 corners"),
         ("property float z\n", "", "Line"),
-        ("element face 1\nproperty list uchar int vertex_indices\n", "", "the PLY file has no element 'face'"),
+        (
+            "element face 1\nproperty list uchar int vertex_indices\n",
+            "",
+            "the PLY file has no element 'face'",
+        ),
         ("int vertex_indices", "int corners", "the PLY file has no list 'vertex_indices'"),
         ("int vertex_indices", "float vertex_indices", "Line"),
         ("0 1 0\n", "0 nan 0\n", "vertex 2 has the position [0, NaN, 0], which is not finite"),

@@ -1,15 +1,17 @@
 //! The result of the pipeline.
 
 use basemesh::{
-    EdgeMap, FaceMap, Polygonization, SimplifyReport, TopologyCount, TriMesh, VertexMap,
+    EdgeMap, FaceMap, Polygonization, SimplifyReport, SurfaceTarget, TopologyCount, TriMesh,
+    VertexMap,
 };
-use bezier_core::SurfaceJet;
-use g1_triangular::{CurveNetwork, SmoothPatches};
+use bezier_core::{SepticTriangle, SurfaceJet};
+use g1_triangular::{CurveNetwork, Plan, SmoothPatches, fill};
 use hermite_sqp::{EdgeOutcome, EdgeStatus};
 
 use crate::adapt::Adaptation;
 use crate::objectives::Retreat;
 use crate::progress::StageTimes;
+use crate::settings::Settings;
 
 /// A G1 spline surface with everything that it was made from.
 #[derive(Clone, Debug)]
@@ -96,6 +98,18 @@ impl G1Surface {
         }
         let mean_iterations = steps as f64 / converged.max(1) as f64;
         CurveSummary { fallbacks, mean_iterations }
+    }
+
+    /// The patches before they were joined, with the same curves: without gaps, but with kinks along the
+    /// edges. They are filled anew, with the objectives of the settings everywhere.
+    #[must_use]
+    pub fn before_join(
+        &self,
+        target: &dyn SurfaceTarget,
+        settings: &Settings,
+    ) -> FaceMap<SepticTriangle> {
+        let plan = Plan::uniform(self.mesh.topology(), settings.patches);
+        fill(&self.mesh, &self.network, target, &plan).nets
     }
 
     /// Largest coefficient of the smoothness condition over all edges, in chord lengths.

@@ -19,7 +19,7 @@ const CREASE_ANGLE: f64 = 80.0 * PI / 180.0;
 
 pub(super) fn write(samples: &mut Samples) -> Result<()> {
     let sphere = fitted("sphere_1280.stl", MeshBase::Faces, 100)?;
-    let mut facts = volume(&sphere, &Sphere { radius: 1.0 }, 4.0 * PI / 3.0, 4.0 * PI);
+    let mut facts = volume(&sphere, &Sphere::default(), 4.0 * PI / 3.0, 4.0 * PI);
     facts["operations"] = json!(true);
     facts["box"] = json!([[0.013, -2.0, -2.0], [2.0, 2.0, 2.0]]);
     step(samples, "mesh-sphere.step", &sphere, facts)?;

@@ -20,7 +20,7 @@ pub(super) fn cases() -> Vec<Case> {
     vec![
         Case::new("sphere, STL of 1280", SCHEME, |_| {
             let expected = Expected { euler: 2, vertices: 1e-7, triangles: 4e-3 };
-            let exact = Sphere { radius: 1.0 };
+            let exact = Sphere::default();
             fitted("sphere_1280.stl", MeshBase::Keep, Some((&exact, 2e-6)), &expected)
         }),
         Case::new("torus, PLY of 2304", SCHEME, |_| {

@@ -99,7 +99,7 @@ pub(super) fn costs(costs: &[Cost]) -> Vec<Check> {
 }
 
 /// In tables and messages.
-pub(super) fn name(variant: Variant) -> &'static str {
+pub(crate) fn name(variant: Variant) -> &'static str {
     match variant {
         Variant::Curves => "published curves",
         Variant::PublishedG0 => "published G0",

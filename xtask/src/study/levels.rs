@@ -17,7 +17,7 @@ use super::interpolants::interpolate;
 /// What is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum Variant {
+pub(crate) enum Variant {
     /// The curves that the published method ends with.
     Curves,
     /// The patches without smoothness that the published method starts from.
@@ -38,23 +38,23 @@ pub(super) enum Variant {
 
 /// Errors of one surface; distances over the diagonal. Curves have only the largest distance.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Errors {
-    pub(super) max: f64,
-    pub(super) rms: Option<f64>,
-    pub(super) normal_deg: Option<f64>,
-    pub(super) folds: usize,
+pub(crate) struct Errors {
+    pub(crate) max: f64,
+    pub(crate) rms: Option<f64>,
+    pub(crate) normal_deg: Option<f64>,
+    pub(crate) folds: usize,
     /// Patches that were taken back to the published objectives.
-    pub(super) retreats: usize,
+    pub(crate) retreats: usize,
 }
 
 /// One base mesh.
 #[derive(Debug, Serialize)]
-pub(super) struct Level {
-    pub(super) faces: usize,
-    pub(super) errors: BTreeMap<Variant, Errors>,
+pub(crate) struct Level {
+    pub(crate) faces: usize,
+    pub(crate) errors: BTreeMap<Variant, Errors>,
     /// The largest of all G1 surfaces.
-    pub(super) g1_angle_deg: f64,
-    pub(super) row_residual: f64,
+    pub(crate) g1_angle_deg: f64,
+    pub(crate) row_residual: f64,
 }
 
 /// Points at which a curve is compared.

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
+use smoothpatch::implicit::ImplicitSurface;
 use smoothpatch::{
-    FieldSource, Report, Settings, Silent, find_region, fit, fit_base_mesh, report, scene,
+    FieldSource, G1Surface, Report, Settings, Silent, find_region, fit, fit_base_mesh, report,
+    scene,
 };
 
 use super::cases::Case;
@@ -42,17 +44,27 @@ pub(super) struct Measures {
 
 pub(super) fn measure(case: &Case) -> Result<Measures> {
     let field = scene::field_of(&case.scene.surface)?;
-    let settings = Settings::with_faces(case.scene.faces).with_method(case.method.into());
-    let surface = if let Some(mesh) = scene::base_mesh_of(&case.scene, &case.path)? {
-        fit_base_mesh(&*field, mesh, &settings, &mut Silent)?
-    } else {
-        let region = scene::region_of(&case.scene)?;
-        let region = region.map_or_else(|| find_region(&*field), Ok)?;
-        fit(&*field, &region, &settings, &mut Silent)?
-    };
+    let settings = settings(case);
+    let surface = fit_case(case, &*field)?;
     let target = FieldSource::new(&*field, surface.mesh.diagonal(), settings.projection);
     let (report, _) = report(&surface, &target, &mut Silent);
     Ok(Measures { seconds: surface.times.total(), ..report.into() })
+}
+
+fn settings(case: &Case) -> Settings {
+    Settings::with_faces(case.scene.faces).with_method(case.method.into())
+}
+
+/// The surface of a case.
+pub(super) fn fit_case(case: &Case, field: &dyn ImplicitSurface) -> Result<G1Surface> {
+    let settings = settings(case);
+    Ok(if let Some(mesh) = scene::base_mesh_of(&case.scene, &case.path)? {
+        fit_base_mesh(field, mesh, &settings, &mut Silent)?
+    } else {
+        let region = scene::region_of(&case.scene)?;
+        let region = region.map_or_else(|| find_region(field), Ok)?;
+        fit(field, &region, &settings, &mut Silent)?
+    })
 }
 
 impl From<Report> for Measures {

@@ -31,7 +31,8 @@ pub(crate) struct Outputs<'a> {
 impl<'a> Outputs<'a> {
     /// What the options ask for; only names are looked at.
     pub(crate) fn new(arguments: &'a FitArguments) -> anyhow::Result<Self> {
-        let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?;
+        let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?
+            .with_before_join(arguments.before_join.as_deref())?;
         let (cells, divisions) = (arguments.cells.into(), arguments.divisions);
         let formats = &arguments.formats;
         Ok(Self { files, formats, cells, quiet: arguments.quiet, divisions })
@@ -76,6 +77,17 @@ impl<'a> Outputs<'a> {
 }
 
 impl Outputs<'_> {
+    /// Writes the patches before they were joined, if they are asked for; `nets` makes them.
+    pub(crate) fn write_before_join(
+        &self,
+        topology: &Topology,
+        nets: impl FnOnce() -> Nets,
+    ) -> anyhow::Result<Option<Written>> {
+        let Some(path) = &self.files.before_join else { return Ok(None) };
+        let (nets, vtu) = (nets(), VtuOptions { cells: self.cells, ..VtuOptions::default() });
+        write_file(path, |out| Ok(write_vtu(out, topology, &nets, &vtu)?)).map(Some)
+    }
+
     fn msh(&self, path: &Path, topology: &Topology, nets: &Nets) -> anyhow::Result<Written> {
         let order = self.formats.order.unwrap_or(SepticTriangle::<DVec3>::DEGREE);
         let mesh = CurvedMesh::from_patches(topology, nets, order);

@@ -11,6 +11,7 @@ mod meshes;
 mod nagata;
 mod nagata_bad_input;
 mod query;
+mod render;
 mod shapes;
 mod solids;
 mod workplace;

@@ -89,4 +89,11 @@ impl Workplace {
         assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{line}\n{}", run.stdout);
         run.stdout
     }
+
+    /// Runs a command line that cannot be carried out, with this in the one message.
+    pub(crate) fn fails_with(&self, line: &str, message: &str) {
+        let run = self.run(line);
+        assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{line}: {}", run.stderr);
+        assert!(run.stderr.contains(message), "{line}: {} lacks {message:?}", run.stderr);
+    }
 }

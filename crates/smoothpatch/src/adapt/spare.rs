@@ -55,7 +55,7 @@ fn simplified(
     fitted: &Fitted,
     fewer: usize,
     tolerance: &Tolerance,
-    job: &mut Job<'_, '_, '_>,
+    job: &mut Job<'_, '_>,
 ) -> Result<Option<Fitted>, FitError> {
     let Some(trial) = job.fit_simplified(fitted, fewer)? else { return Ok(None) };
     Ok(accepted(trial, fitted, tolerance, job))
@@ -66,7 +66,7 @@ fn accepted(
     mut trial: Fitted,
     than: &Fitted,
     tolerance: &Tolerance,
-    job: &mut Job<'_, '_, '_>,
+    job: &mut Job<'_, '_>,
 ) -> Option<Fitted> {
     if trial.faces() >= than.faces() {
         return None;
