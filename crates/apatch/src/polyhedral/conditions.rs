@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::dofs::{DEGREE, Dofs, dof_at};
+use super::dofs::{COUNT, DEGREE, Dofs, dof_at};
 use super::hull::{Cell, Hull};
 use crate::bernstein::indices;
 use crate::rational::{Convexity, Side};
@@ -19,7 +19,19 @@ impl Row {
     /// Collects terms in all weights; known ones go to the right side. `None` without unknowns.
     ///
     /// The largest factor becomes 1 or -1.
-    pub(crate) fn new(dofs: &Dofs, mut terms: Vec<(usize, f64)>, right: f64) -> Option<Self> {
+    pub(crate) fn new(dofs: &Dofs, terms: Vec<(usize, f64)>, right: f64) -> Option<Self> {
+        let mut row = Self::plain(dofs, terms, right);
+        let largest = row.terms.iter().fold(0.0_f64, |m, t| m.max(t.1.abs()));
+        if largest == 0.0 {
+            return None;
+        }
+        row.terms.iter_mut().for_each(|t| t.1 /= largest);
+        row.right /= largest;
+        Some(row)
+    }
+
+    /// The same with the factors as they are.
+    pub(crate) fn plain(dofs: &Dofs, mut terms: Vec<(usize, f64)>, right: f64) -> Self {
         terms.sort_by_key(|t| t.0);
         let mut row = Self { terms: Vec::new(), right };
         for (dof, factor) in terms {
@@ -29,14 +41,8 @@ impl Row {
                 (None, _) => row.terms.push((dofs.unknown[dof], factor)),
             }
         }
-        let largest = row.terms.iter().fold(0.0_f64, |m, t| m.max(t.1.abs()));
-        if largest == 0.0 {
-            return None;
-        }
         row.terms.retain(|t| t.1 != 0.0);
-        row.terms.iter_mut().for_each(|t| t.1 /= largest);
-        row.right /= largest;
-        Some(row)
+        row
     }
 
     /// Its value less the wanted one.
@@ -49,11 +55,11 @@ impl Row {
 /// straight edges, where the tetrahedra of both triangles meet in the edge only.
 pub(crate) fn conditions(hull: &Hull, dofs: &Dofs) -> Vec<Row> {
     let mut rows = Vec::new();
-    for [first, second] in neighbours(hull) {
-        join(hull, dofs, first, second, &mut rows);
-    }
-    for [first, second] in across_straight_edges(hull) {
-        join(hull, dofs, first, second, &mut rows);
+    for pair in neighbours(hull).into_iter().chain(across_straight_edges(hull)) {
+        let joint = Joint::new(hull, dofs, pair);
+        for index in indices(DEGREE).filter(|&i| matches!(joint.points_off(i), 1 | 2)) {
+            rows.extend(Row::new(dofs, joint.difference(index), 0.0));
+        }
     }
     rows
 }
@@ -91,42 +97,62 @@ fn across_straight_edges(hull: &Hull) -> Vec<[usize; 2]> {
     pairs
 }
 
-/// `w(λ, x)` and `w(λ, x, y)` of the second cell, for its points `x`, `y` off the common ones, are the
-/// blossom of the first cell at the same points \[BCX94 (2.8), (2.9), (2.11)\].
-fn join(hull: &Hull, dofs: &Dofs, first: usize, second: usize, rows: &mut Vec<Row>) {
-    let corners = [first, second].map(|c| hull.corners(hull.cells[c]));
-    let tetrahedron = hull.tetrahedron(hull.cells[first]);
-    let common = corners[1].map(|p| corners[0].iter().position(|&q| q == p));
-    let coordinates = [0, 1, 2, 3].map(|c| match common[c] {
-        Some(_) => None,
-        None => Some(tetrahedron.barycentric(hull.points[corners[1][c]])),
-    });
-    for index in indices(DEGREE) {
-        let off: Vec<[f64; 4]> =
-            (0..4).flat_map(|c| std::iter::repeat_n(coordinates[c], index[c]).flatten()).collect();
-        if !(1..=2).contains(&off.len()) {
-            continue;
+/// Two cells with common corners.
+pub(crate) struct Joint<'a> {
+    /// The weights of both.
+    weights: [&'a [usize; COUNT]; 2],
+    /// Places in the first cell of the corners of the second one.
+    common: [Option<usize>; 4],
+    /// Coordinates in the first cell of the corners of the second one.
+    coordinates: [[f64; 4]; 4],
+}
+
+impl<'a> Joint<'a> {
+    pub(crate) fn new(hull: &Hull, dofs: &'a Dofs, pair: [usize; 2]) -> Self {
+        let corners = pair.map(|cell| hull.corners(hull.cells[cell]));
+        let tetrahedron = hull.tetrahedron(hull.cells[pair[0]]);
+        Self {
+            weights: pair.map(|cell| &dofs.of_cell[cell]),
+            common: corners[1].map(|p| corners[0].iter().position(|&q| q == p)),
+            coordinates: corners[1].map(|p| tetrahedron.barycentric(hull.points[p])),
         }
-        let mut base = [0; 4];
-        for c in 0..4 {
-            if let Some(at) = common[c] {
-                base[at] = index[c];
-            }
-        }
-        let mut terms = vec![(dof_at(&dofs.of_cell[second], index), -1.0)];
-        let blossom = |raised: &[usize], factor: f64| {
-            let mut own = base;
-            raised.iter().for_each(|&c| own[c] += 1);
-            (dof_at(&dofs.of_cell[first], own), factor)
-        };
-        match *off {
-            [x] => terms.extend((0..4).map(|a| blossom(&[a], x[a]))),
-            [x, y] => {
-                let pairs = (0..16).map(|k| [k / 4, k % 4]);
-                terms.extend(pairs.map(|[a, b]| blossom(&[a, b], x[a] * y[b])));
-            }
-            _ => {}
-        }
-        rows.extend(Row::new(dofs, terms, 0.0));
     }
+
+    /// The corner of the second cell that is not common, if it is only one.
+    pub(crate) fn corner_off(&self) -> Option<usize> {
+        let mut off = (0..4).filter(|&c| self.common[c].is_none());
+        off.next().filter(|_| off.next().is_none())
+    }
+
+    /// How many points of an index of the second cell are not common.
+    pub(crate) fn points_off(&self, index: [usize; 4]) -> usize {
+        (0..4).filter(|&c| self.common[c].is_none()).map(|c| index[c]).sum()
+    }
+
+    /// The blossom of the first cell at the points of an index of the second one, less the weight
+    /// there: zero for one and two points off if the function is C2 \[BCX94 (2.8), (2.9), (2.11)\].
+    pub(crate) fn difference(&self, index: [usize; 4]) -> Vec<(usize, f64)> {
+        let mut own = vec![([0; 4], 1.0)];
+        for c in 0..4 {
+            for _ in 0..index[c] {
+                own = match self.common[c] {
+                    Some(at) => own.iter().map(|&(i, x)| (raised(i, at), x)).collect(),
+                    None => {
+                        let spread = |&(i, x): &([usize; 4], f64)| {
+                            (0..4).map(move |a| (raised(i, a), x * self.coordinates[c][a]))
+                        };
+                        own.iter().flat_map(spread).collect()
+                    }
+                };
+            }
+        }
+        let mut terms = vec![(dof_at(self.weights[1], index), -1.0)];
+        terms.extend(own.into_iter().map(|(i, x)| (dof_at(self.weights[0], i), x)));
+        terms
+    }
+}
+
+fn raised(mut index: [usize; 4], corner: usize) -> [usize; 4] {
+    index[corner] += 1;
+    index
 }

@@ -1,4 +1,5 @@
-//! The fairness of a function: the integral of its squared third derivatives.
+//! The fairness of a function: the integral of its squared third derivatives, and of their squared
+//! jumps.
 
 use glam::DVec3;
 
@@ -9,6 +10,8 @@ use crate::tetrahedron::Tetrahedron;
 /// Indices of degree 2 and 3.
 const SECOND: usize = 10;
 const THIRD: usize = 20;
+/// Weights of a tetrahedron with three points at one corner.
+pub(crate) const JUMPS: usize = 6;
 
 /// The quadratic form `wᵀ E w = ∫ |D³F|²` over one tetrahedron, row by row.
 ///
@@ -36,6 +39,23 @@ pub(crate) fn energy(tetrahedron: &Tetrahedron) -> Vec<f64> {
         }
     }
     form
+}
+
+/// The quadratic form `dᵀ J d = h ∫ |jump of D³F|²` over the side of a tetrahedron opposite to corner
+/// `off`, for the differences `d` of the weights with three points there; `h` is the height.
+///
+/// The jump is that of the third derivative along the normal, `60 / h³ Σ d_i B_i` of degree 2. Rows and
+/// columns in the order of the indices.
+pub(crate) fn jump_energy(tetrahedron: &Tetrahedron, off: usize) -> [[f64; JUMPS]; JUMPS] {
+    let height = 1.0 / tetrahedron.gradients()[off].length();
+    let area = 0.5 * tetrahedron.determinant().abs() / height;
+    let factor = 3600.0 * area / height.powi(5);
+    let mut on = indices(DEGREE).filter(|i| i[off] == 3).map(|mut i| {
+        i[off] = 0;
+        i
+    });
+    let on: [[usize; 4]; JUMPS] = std::array::from_fn(|_| on.next().unwrap_or_default());
+    on.map(|i| on.map(|j| factor * mass(i, j) * 35.0 / 15.0))
 }
 
 /// Integral of the product of two Bernstein polynomials of degree 2 over a unit volume.
@@ -124,5 +144,20 @@ mod tests {
         assert!((value(&cubic) - 6.0 * volume).abs() < 1e-9, "{}", value(&cubic));
         let quadric = weights([|p| p.x, |p| p.x + 2.0 * p.y, one, one, one]);
         assert!(value(&quadric).abs() < 1e-9, "{}", value(&quadric));
+    }
+
+    #[test]
+    fn the_jump_of_a_cube_of_the_height() {
+        for off in 0..4 {
+            let corners = tetrahedron().corners;
+            let height = 1.0 / tetrahedron().gradients()[off].length();
+            let [a, b, c] = [1, 2, 3].map(|k| corners[(off + k) % 4]);
+            let area = 0.5 * (b - a).cross(c - a).length();
+            // the weights of ξ³ with three points at its corner are 1/10
+            let difference = height.powi(3) / 10.0;
+            let form = jump_energy(&tetrahedron(), off);
+            let value = form.iter().flatten().sum::<f64>() * difference * difference;
+            assert!((value / (36.0 * area * height) - 1.0).abs() < 1e-12, "{off}: {value}");
+        }
     }
 }

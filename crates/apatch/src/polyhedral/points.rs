@@ -138,18 +138,39 @@ impl PolyhedralSurface {
     }
 
     /// Rays of a grid with `n` steps in every cell that do not meet the surface exactly once, and the
-    /// number of all.
+    /// number of all. Where the signs of the weights decide, the rays are only counted.
     #[must_use]
     pub fn count_bad_rays(&self, n: usize) -> [usize; 2] {
         let mut counts = [0, 0];
         for (index, &cell) in self.hull.cells.iter().enumerate() {
-            for [foot, top] in Self::ray_grid(cell, n) {
-                counts[1] += 1;
-                if self.meets(index, foot, top) == Meets::Wrongly {
-                    counts[0] += 1;
-                }
-            }
+            counts[1] += if cell.base() == 3 { (n + 1) * (n + 2) / 2 } else { (n + 1) * (n + 1) };
+            counts[0] += self.bad_rays(index, n).count();
         }
         counts
+    }
+
+    /// Rays of a cell's grid that do not meet the surface exactly once.
+    pub(crate) fn bad_rays(&self, cell: usize, n: usize) -> impl Iterator<Item = [[f64; 4]; 2]> {
+        let rays = (!self.is_single_sheet(cell)).then(|| Self::ray_grid(self.hull.cells[cell], n));
+        rays.into_iter()
+            .flatten()
+            .filter(move |&[foot, top]| self.meets(cell, foot, top) == Meets::Wrongly)
+    }
+
+    /// Whether the weights change sign once from layer to layer, so that every ray crosses the surface
+    /// once \[BCX94 Theorem 2.1\].
+    fn is_single_sheet(&self, cell: usize) -> bool {
+        let (base, sign) = (self.hull.cells[cell].base(), self.hull.cells[cell].side().sign());
+        let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 6];
+        let mut largest = 0.0_f64;
+        for (index, weight) in bernstein::indices(self.degree).zip(self.weights(cell)) {
+            let [low, high] = &mut bounds[index[base..].iter().sum::<usize>()];
+            (*low, *high) = (low.min(sign * weight), high.max(sign * weight));
+            largest = largest.max(weight.abs());
+        }
+        let layers = &bounds[..=self.degree];
+        let rising = layers.iter().rposition(|l| l[0] < 0.0);
+        let below = rising.is_none_or(|k| layers[..k].iter().all(|l| l[1] <= 0.0));
+        below && layers[self.degree][0] > 64.0 * f64::EPSILON * largest
     }
 }

@@ -84,7 +84,7 @@ pub struct FairnessSettings {
 
 impl Default for FairnessSettings {
     fn default() -> Self {
-        Self { rounds: 6, margin: 1e-6 }
+        Self { rounds: 20, margin: 1e-6 }
     }
 }
 

@@ -2,9 +2,8 @@
 //! that miss it.
 
 use super::conditions::Row;
-use super::dofs::{DEGREE, Dofs, dof_at};
+use super::dofs::{COUNT, DEGREE, Dofs, dof_at};
 use super::hull::{Cell, Hull};
-use super::points::Meets;
 use super::surface::PolyhedralSurface;
 use crate::bernstein::indices;
 use crate::rational::Convexity;
@@ -53,8 +52,8 @@ fn straight_corners(hull: &Hull, cell: Cell) -> Vec<usize> {
     (0..3).filter(straight).map(|k| (k + 2) % 3).collect()
 }
 
-/// Conditions for the rays of a grid that do not meet the surface once: their coefficients of the
-/// middle layers must not be negative.
+/// Conditions for rays of a grid that do not meet the surface once: their coefficients of the middle
+/// layers must not be negative. Of each cell the worst ray for each layer.
 pub(crate) fn ray_cuts(
     surface: &PolyhedralSurface,
     dofs: &Dofs,
@@ -65,27 +64,39 @@ pub(crate) fn ray_cuts(
     let mut rows = Vec::new();
     for (index, &cell) in hull.cells.iter().enumerate() {
         let layers = if is_two_sided(hull, cell) { 1..=2 } else { 2..=2 };
-        for [foot, top] in PolyhedralSurface::ray_grid(cell, steps) {
-            if surface.meets(index, foot, top) != Meets::Wrongly {
-                continue;
-            }
-            for layer in layers.clone() {
-                let terms = indices(DEGREE)
-                    .filter(|i| i[cell.base()..].iter().sum::<usize>() == layer)
-                    .map(|i| {
-                        let of = |c: &[usize], x: &[f64]| bernstein(c, x);
-                        let (lower, upper) = (cell.base(), 4 - cell.base());
-                        debug_assert_eq!(lower + upper, 4, "four corners");
-                        let weight =
-                            of(&i[..lower], &foot[..lower]) * of(&i[lower..], &top[lower..]);
-                        (dof_at(&dofs.of_cell[index], i), cell.side().sign() * weight)
-                    })
-                    .collect();
-                rows.extend(Row::new(dofs, terms, margin));
-            }
+        let bad: Vec<_> = surface
+            .bad_rays(index, steps)
+            .map(|[foot, top]| (foot, top, surface.ray(index, foot, top)))
+            .collect();
+        for layer in layers {
+            let least = |a: &[f64; 6], b: &[f64; 6]| a[layer].total_cmp(&b[layer]);
+            let worst = bad.iter().min_by(|a, b| least(&a.2, &b.2));
+            rows.extend(worst.and_then(|&(foot, top, _)| {
+                let terms = layer_terms(cell, &dofs.of_cell[index], layer, foot, top);
+                Row::new(dofs, terms, margin)
+            }));
         }
     }
     rows
+}
+
+/// The coefficient of a layer along a ray, times the sign of the side, in terms of the weights.
+fn layer_terms(
+    cell: Cell,
+    dofs: &[usize; COUNT],
+    layer: usize,
+    foot: [f64; 4],
+    top: [f64; 4],
+) -> Vec<(usize, f64)> {
+    let lower = cell.base();
+    indices(DEGREE)
+        .filter(|i| i[lower..].iter().sum::<usize>() == layer)
+        .map(|i| {
+            let weight =
+                bernstein(&i[..lower], &foot[..lower]) * bernstein(&i[lower..], &top[lower..]);
+            (dof_at(dofs, i), cell.side().sign() * weight)
+        })
+        .collect()
 }
 
 /// A Bernstein polynomial in some of the coordinates.
