@@ -3,12 +3,12 @@
 use std::sync::LazyLock;
 
 use basemesh::SurfaceTarget;
-use bezier_core::{MultiIndex, SepticTriangle, binomial};
+use bezier_core::glam::DVec3;
+use bezier_core::{MultiIndex, PointMap, SepticTriangle, binomial};
 use nalgebra::DMatrix;
 
 use crate::normal_fit::{along_mean_normal, point_to_plane};
 use crate::plan::InnerPoints;
-use crate::point_map::PointMap;
 use crate::samples::FreePoints;
 
 /// The free control points, by exponents.
@@ -48,12 +48,12 @@ pub(crate) fn choose(
 /// The free points that make the patch as nearly of degree 6, and with less weight of degree 5, as
 /// the others allow, in the L2 norm over the triangle.
 fn low_degree(net: &SepticTriangle) -> SepticTriangle {
-    static FROM_OTHERS: LazyLock<PointMap<3>> = LazyLock::new(|| {
+    static FROM_OTHERS: LazyLock<PointMap> = LazyLock::new(|| {
         let weights = low_degree_weights();
-        PointMap::new(36, |slot, rank| weights[slot][rank])
+        PointMap::new(3, 36, |slot, rank| weights[slot][rank])
     });
     let origin = net.net()[0];
-    let combined = FROM_OTHERS.apply(&net.net().map(|p| p - origin));
+    let combined: [DVec3; 3] = FROM_OTHERS.to_array(&net.net().map(|p| p - origin));
     let mut chosen = *net;
     for (m, relative) in FREE.into_iter().zip(combined) {
         chosen[m] = origin + relative;
@@ -105,7 +105,6 @@ fn remainder(d: usize) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bezier_core::glam::DVec3;
 
     /// Values printed by an independent implementation for the point (3, 2, 2).
     #[test]

@@ -10,7 +10,6 @@ mod interior;
 mod network;
 mod normal_fit;
 mod plan;
-mod point_map;
 mod residual;
 mod samples;
 mod second_order;

@@ -9,9 +9,9 @@ use crate::samples::{Columns, Feet, PAIRS, SAMPLES};
 pub(crate) fn point_to_plane(columns: &Columns, feet: &Feet, damping: f64) -> Option<[DVec3; 3]> {
     let Feet { normals, distances } = feet;
     // sums of c_a c_b n nᵀ for each pair of control points: entries xx, xy, xz and yy, yz, zz
-    let x_rows = columns.pair_sums.apply(&normals.map(|n| n * n.x));
-    let other_rows =
-        columns.pair_sums.apply(&normals.map(|n| DVec3::new(n.y * n.y, n.y * n.z, n.z * n.z)));
+    let x_rows: [DVec3; 6] = columns.pair_sums.to_array(&normals.map(|n| n * n.x));
+    let other_rows: [DVec3; 6] =
+        columns.pair_sums.to_array(&normals.map(|n| DVec3::new(n.y * n.y, n.y * n.z, n.z * n.z)));
     let mut matrix = [[0.0; 9]; 9];
     for (pair, [a, b]) in PAIRS.into_iter().enumerate() {
         let sums = x_rows[pair].to_array().into_iter().chain(other_rows[pair].to_array());
@@ -27,7 +27,7 @@ pub(crate) fn point_to_plane(columns: &Columns, feet: &Feet, damping: f64) -> Op
         row[d] += damping * trace / 9.0;
     }
     let pulls: [DVec3; SAMPLES] = std::array::from_fn(|j| normals[j] * distances[j]);
-    let pulls = columns.sums.apply(&pulls);
+    let pulls: [DVec3; 3] = columns.sums.to_array(&pulls);
     let x = solve_definite(matrix, std::array::from_fn(|i| pulls[i / 3][i % 3]))?;
     Some([0, 3, 6].map(|i| DVec3::new(x[i], x[i + 1], x[i + 2])))
 }

@@ -4,10 +4,8 @@ use std::sync::LazyLock;
 
 use basemesh::{Foot, SurfaceTarget};
 use bezier_core::glam::DVec3;
-use bezier_core::{Barycentric, BezierTriangle, MultiIndex};
+use bezier_core::{Barycentric, BezierTriangle, MultiIndex, PointMap};
 use nalgebra::DMatrix;
-
-use crate::point_map::PointMap;
 
 /// Divisions of the sample grid; 9 to 18 change the deviation by less than 3 %.
 const GRID: usize = 12;
@@ -57,9 +55,9 @@ fn basis_column<const P: usize>(m: MultiIndex) -> [f64; SAMPLES] {
 /// once.
 pub(crate) struct NetFit<const P: usize, const FREE: usize> {
     free: [MultiIndex; FREE],
-    from_samples: PointMap<FREE>,
+    from_samples: PointMap,
     /// From the whole net; the free points have no weight.
-    from_given: PointMap<FREE>,
+    from_given: PointMap,
 }
 
 impl<const P: usize, const FREE: usize> NetFit<P, FREE> {
@@ -82,8 +80,10 @@ impl<const P: usize, const FREE: usize> NetFit<P, FREE> {
         let from_given = &pseudo_inverse * given_basis;
         Self {
             free,
-            from_samples: PointMap::new(SAMPLES, |slot, sample| pseudo_inverse[(slot, sample)]),
-            from_given: PointMap::new(P, |slot, rank| -from_given[(slot, rank)]),
+            from_samples: PointMap::new(FREE, SAMPLES, |slot, sample| {
+                pseudo_inverse[(slot, sample)]
+            }),
+            from_given: PointMap::new(FREE, P, |slot, rank| -from_given[(slot, rank)]),
         }
     }
 
@@ -92,8 +92,8 @@ impl<const P: usize, const FREE: usize> NetFit<P, FREE> {
     pub(crate) fn apply(&self, net: &mut BezierTriangle<DVec3, P>, samples: &Points) {
         // a local origin keeps the large coordinates of a far-away face out of the sums
         let origin = net.net()[0];
-        let sampled = self.from_samples.apply(&samples.map(|p| p - origin));
-        let given = self.from_given.apply(&net.net().map(|p| p - origin));
+        let sampled: [DVec3; FREE] = self.from_samples.to_array(&samples.map(|p| p - origin));
+        let given: [DVec3; FREE] = self.from_given.to_array(&net.net().map(|p| p - origin));
         for (slot, &m) in self.free.iter().enumerate() {
             net[m] = origin + sampled[slot] + given[slot];
         }
@@ -103,7 +103,7 @@ impl<const P: usize, const FREE: usize> NetFit<P, FREE> {
 /// Moves three control points of a net in rounds, each towards new feet of the samples.
 pub(crate) struct FreePoints<const P: usize> {
     free: [MultiIndex; 3],
-    basis: PointMap<SAMPLES>,
+    basis: PointMap,
     columns: Columns,
 }
 
@@ -111,8 +111,8 @@ pub(crate) struct FreePoints<const P: usize> {
 pub(crate) struct Columns {
     pub(crate) values: [[f64; SAMPLES]; 3],
     /// Sums over the samples with these weights, and with their products for the [`PAIRS`].
-    pub(crate) sums: PointMap<3>,
-    pub(crate) pair_sums: PointMap<6>,
+    pub(crate) sums: PointMap,
+    pub(crate) pair_sums: PointMap,
 }
 
 /// Pairs of three things.
@@ -125,8 +125,8 @@ impl Columns {
             values[a][sample] * values[b][sample]
         };
         Self {
-            sums: PointMap::new(SAMPLES, |slot, sample| values[slot][sample]),
-            pair_sums: PointMap::new(SAMPLES, product),
+            sums: PointMap::new(3, SAMPLES, |slot, sample| values[slot][sample]),
+            pair_sums: PointMap::new(PAIRS.len(), SAMPLES, product),
             values,
         }
     }
@@ -139,7 +139,7 @@ impl<const P: usize> FreePoints<P> {
         let basis: Vec<[f64; SAMPLES]> = MultiIndex::all(degree).map(basis_column::<P>).collect();
         Self {
             free,
-            basis: PointMap::new(P, |sample, rank| basis[rank][sample]),
+            basis: PointMap::new(SAMPLES, P, |sample, rank| basis[rank][sample]),
             columns: Columns::new(free.map(basis_column::<P>)),
         }
     }
@@ -153,7 +153,7 @@ impl<const P: usize> FreePoints<P> {
         target: &dyn SurfaceTarget,
         motion: impl Fn(&Columns, &Feet) -> Option<[DVec3; 3]>,
     ) {
-        let mut points = self.basis.apply(net.net());
+        let mut points: Points = self.basis.to_array(net.net());
         for round in 0..rounds {
             let moved = feet(target, &points);
             let moved = moved.and_then(|feet| motion(&self.columns, &feet));

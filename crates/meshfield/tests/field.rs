@@ -3,7 +3,7 @@
 mod common;
 
 use meshfield::glam::DVec3;
-use meshfield::implicit::{ImplicitField, TwiceDifferentiable};
+use meshfield::implicit::{ImplicitField, TwiceDifferentiable, surface_point};
 use meshfield::{JetSettings, MeshField, TriangleTree, fit_jets};
 
 fn field() -> MeshField {
@@ -24,7 +24,7 @@ fn vertices_have_their_jets() {
         let form = found.second_fundamental_form - jet.second_fundamental_form;
         assert!(form.to_cols_array().iter().all(|x| x.abs() < 1e-12), "vertex {v}");
         // the exact Hessian tells the same there
-        let exact = meshfield::implicit::surface_point(&field, at).expect("regular");
+        let exact = surface_point(&field, at).expect("regular");
         let form = exact.second_fundamental_form - jet.second_fundamental_form;
         assert!(form.to_cols_array().iter().all(|x| x.abs() < 1e-12), "vertex {v}");
     }

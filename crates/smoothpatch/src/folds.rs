@@ -1,12 +1,10 @@
 //! Patches that fold over: whose normal turns away from the surface's.
 
-use std::sync::LazyLock;
-
 use basemesh::glam::DVec3;
 use basemesh::{FaceId, FaceMap, Foot, SurfaceTarget, TriMesh, VertexMap};
-use bezier_core::{Barycentric, MultiIndex, SepticTriangle, SurfaceJet};
+use bezier_core::{MultiIndex, SepticTriangle, SurfaceJet};
 
-use crate::measure::GRID;
+use crate::measure::on_grid;
 
 /// Patches whose normal is at 90° or more to the surface's, at the points where the deviation is
 /// measured.
@@ -26,14 +24,11 @@ pub(crate) fn find_folds(
 }
 
 fn is_folded(net: &SepticTriangle, corners: [DVec3; 3], target: &dyn SurfaceTarget) -> bool {
-    static PARAMETERS: LazyLock<Vec<Barycentric>> =
-        LazyLock::new(|| Barycentric::lattice(GRID).collect());
     let cone = Cone::around(corners);
     if cone.is_some_and(|cone| cone.contains_all_normals(net)) {
         return false;
     }
-    let (points, normals): (Vec<DVec3>, Vec<DVec3>) =
-        PARAMETERS.iter().map(|&at| net.point_and_area_normal(at)).unzip();
+    let (points, normals) = on_grid(net);
     if cone.is_some_and(|cone| normals.iter().all(|&normal| cone.contains(normal))) {
         return false;
     }
@@ -109,7 +104,10 @@ impl Ball {
 
 #[cfg(test)]
 mod tests {
+    use bezier_core::Barycentric;
+
     use super::*;
+    use crate::measure::GRID;
 
     /// A patch over the triangle (0,0), (1,0), (0,1) whose height bends with `bend`.
     fn bent(bend: f64) -> SepticTriangle {

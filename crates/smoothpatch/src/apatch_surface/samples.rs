@@ -19,7 +19,7 @@ pub(super) fn face_samples(surface: &RationalSurface, face: FaceId, n: usize) ->
 /// The patch over an edge, on a grid with `n` steps along it and half as many across.
 pub(super) fn edge_samples(surface: &RationalSurface, edge: EdgeId, n: usize) -> PatchSamples {
     if surface.edge(edge).sides.iter().all(Option::is_none) {
-        return Vec::new();
+        return PatchSamples::default();
     }
     let m = n.div_ceil(2);
     let at = |i: usize, j: usize| [i as f64 / n as f64, j as f64 / m as f64];

@@ -1,8 +1,10 @@
 //! How far patches are from the surface they stand for.
 
+use std::sync::LazyLock;
+
 use basemesh::glam::DVec3;
 use basemesh::{FaceId, FaceMap, Foot, SurfaceTarget};
-use bezier_core::{Barycentric, SepticTriangle};
+use bezier_core::{Barycentric, ParameterGrid, SepticTriangle};
 use serde::{Deserialize, Serialize};
 
 /// Divisions of the barycentric grid on which every patch is compared: 153 points.
@@ -92,10 +94,26 @@ pub(crate) fn face_deviations(
 }
 
 /// Positions and normals of a patch at a regular grid; the normals are as long as the area element.
-pub(crate) type PatchSamples = Vec<(DVec3, DVec3)>;
+pub(crate) type PatchSamples = (Vec<DVec3>, Vec<DVec3>);
 
 fn sampled(net: &SepticTriangle, divisions: usize) -> PatchSamples {
-    Barycentric::lattice(divisions).map(|at| net.point_and_area_normal(at)).collect()
+    if divisions == GRID {
+        return on_grid(net);
+    }
+    let parameters: Vec<Barycentric> = Barycentric::lattice(divisions).collect();
+    let mut points = vec![DVec3::ZERO; parameters.len()];
+    let mut normals = points.clone();
+    net.points_and_area_normals(&parameters, &mut points, &mut normals);
+    (points, normals)
+}
+
+/// [`sampled`] with [`GRID`] divisions.
+pub(crate) fn on_grid(net: &SepticTriangle) -> PatchSamples {
+    static USUAL: LazyLock<ParameterGrid<36>> = LazyLock::new(|| ParameterGrid::lattice(GRID));
+    let mut points = vec![DVec3::ZERO; USUAL.parameters().len()];
+    let mut normals = points.clone();
+    USUAL.points_and_area_normals(net, &mut points, &mut normals);
+    (points, normals)
 }
 
 /// [`deviation`] of other patches: `sample` returns those of a face on a grid with so many
@@ -167,8 +185,7 @@ impl FaceDeviation {
     }
 }
 
-fn compare(samples: PatchSamples, target: &dyn SurfaceTarget) -> FaceDeviation {
-    let (points, normals): (Vec<DVec3>, Vec<DVec3>) = samples.into_iter().unzip();
+fn compare((points, normals): PatchSamples, target: &dyn SurfaceTarget) -> FaceDeviation {
     let mut feet: Vec<Option<Foot>> = vec![None; points.len()];
     target.feet(&points, &mut feet);
     let mut result = FaceDeviation {
@@ -236,10 +253,8 @@ fn summarise(faces: &FaceMap<FaceDeviation>, diagonal: f64, grid: usize) -> Devi
 /// that can be seen without knowing the target.
 #[must_use]
 pub fn folded_patches(nets: &FaceMap<SepticTriangle>) -> Vec<FaceId> {
-    let parameters: Vec<Barycentric> = Barycentric::lattice(GRID).collect();
     let folded = nets.map(|_, net| {
-        let normals: Vec<DVec3> =
-            parameters.iter().map(|&at| net.point_and_area_normal(at).1).collect();
+        let (_, normals) = on_grid(net);
         let mean: DVec3 = normals.iter().sum();
         !normals.iter().all(|normal| normal.dot(mean) > 0.0)
     });

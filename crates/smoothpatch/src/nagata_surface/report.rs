@@ -161,15 +161,14 @@ fn euler_characteristic(surface: &NagataSurface) -> i64 {
 }
 
 fn is_folded(surface: &NagataSurface, face: FaceId) -> bool {
-    let normals: Vec<DVec3> =
-        usable_samples(&surface.patch(face), GRID).into_iter().map(|(_, normal)| normal).collect();
+    let (_, normals) = usable_samples(&surface.patch(face), GRID);
     let mean: DVec3 = normals.iter().sum();
     !normals.iter().all(|normal| normal.dot(mean) > 0.0)
 }
 
 /// Positions and area normals at a regular grid, without the points that have no normal.
 fn usable_samples(patch: &Patch, divisions: usize) -> PatchSamples {
-    let mut samples: PatchSamples = match patch {
+    let samples: Vec<(DVec3, DVec3)> = match patch {
         Patch::Triangle(patch) => {
             let at = Barycentric::lattice(divisions);
             at.map(|at| (patch.point(at), weighted(patch.normal(at), patch.area_normal(at))))
@@ -187,8 +186,7 @@ fn usable_samples(patch: &Patch, divisions: usize) -> PatchSamples {
                 .collect()
         }
     };
-    samples.retain(|(_, normal)| *normal != DVec3::ZERO);
-    samples
+    samples.into_iter().filter(|(_, normal)| *normal != DVec3::ZERO).collect()
 }
 
 /// The normal with the length of the area normal, whose direction is round-off where a patch is singular.
