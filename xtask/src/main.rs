@@ -1,6 +1,7 @@
 //! Verification and upkeep of the workspace.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 
+mod bench_report;
 mod check;
 mod fixtures;
 mod interop;
@@ -29,6 +30,11 @@ enum Command {
     Verify(verify::Options),
     /// Writes samples of every scheme and format and lets other programs judge them.
     Interop(interop::Options),
+    /// Runs the benches and shows their figures beside targets and limits, and how costs grow.
+    BenchReport(bench_report::Options),
+    /// One fit, for bench-report.
+    #[command(hide = true)]
+    FitOnce(bench_report::OnceOptions),
     /// Checks tables of formulas, links in documents and the list of fixtures.
     Tidy,
     /// Writes the fixtures that are generated.
@@ -40,6 +46,8 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Verify(options) => verify::run(&options),
         Command::Interop(options) => interop::run(&options),
+        Command::BenchReport(options) => bench_report::run(&options),
+        Command::FitOnce(options) => bench_report::once(&options),
         Command::Tidy => tidy::run(),
         Command::Fixtures => fixtures::run().map(|()| true),
     };

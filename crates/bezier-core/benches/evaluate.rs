@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use bezier_core::glam::DVec3;
 use bezier_core::{
-    Barycentric, LocalEdge, MultiIndex, ParameterGrid, ParametricPatch, QuarticCurve,
+    Barycentric, LocalEdge, MultiIndex, ParameterGrid, ParametricPatch, PointMap, QuarticCurve,
     QuarticTriangle, Seam, SepticTriangle,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -102,6 +102,21 @@ fn grids(c: &mut Criterion) {
     group.finish();
 }
 
+/// The linear map of the least-squares fit of the inner points of a patch to samples.
+fn shared_fit(c: &mut Criterion) {
+    let samples: Vec<DVec3> = (0..66).map(|i| DVec3::splat(f64::from(i)).sin()).collect();
+    let weight = |out: usize, sample: usize| ((out * 66 + sample) as f64).cos();
+    let from_samples = PointMap::new(15, 66, weight);
+    let from_boundary = PointMap::new(15, 36, weight);
+    c.bench_function("shared_fit/15 of 66", |b| {
+        b.iter(|| {
+            let fitted: [DVec3; 15] = from_samples.to_array(black_box(&samples));
+            let given: [DVec3; 15] = from_boundary.to_array(black_box(&samples[..36]));
+            (fitted, given)
+        });
+    });
+}
+
 fn rows(c: &mut Criterion) {
     let (left, right) = (patch(0.05), patch(0.04));
     let edge = LocalEdge::ALL[1];
@@ -128,5 +143,5 @@ fn elevation(c: &mut Criterion) {
     c.bench_function("elevate/curve/4-7", |b| b.iter(|| black_box(&curve).elevate_to::<8>()));
 }
 
-criterion_group!(benches, single, batches, grids, rows, elevation);
+criterion_group!(benches, single, batches, grids, shared_fit, rows, elevation);
 criterion_main!(benches);
