@@ -140,19 +140,27 @@ impl<'a> SurfaceQueries<'a> {
         let widened = |distance: f64| distance * (1.0 + TIE) + 8.0 * f64::EPSILON * far;
         let limit = Cell::new(f64::INFINITY);
         let lower = |distance: f64| limit.set(limit.get().min(widened(distance)));
-        let (mut nearest, mut open): (Vec<Near>, _) = (Vec::new(), Vec::new());
-        let lower_bound = |item: usize| {
+        let mut items: Vec<(f64, usize)> = Vec::new();
+        self.tree.visit_near(p, &limit, |item| {
             let [least, most] = self.flats[item].reach(p);
             lower(most);
-            least
-        };
-        self.tree.visit_near(p, &limit, lower_bound, |item| {
+            if least <= limit.get() {
+                items.push((least, item));
+            }
+        });
+        items.retain(|(least, _)| *least <= limit.get());
+        items.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let (mut nearest, mut open): (Vec<Near>, _) = (Vec::new(), Vec::new());
+        for (least, item) in items {
+            if least > limit.get() {
+                break;
+            }
             if let Some(next) = self.near(&self.flats[item], p, limit.get(), &mut open) {
                 lower(next.distance);
                 nearest.retain(|near| near.distance <= limit.get() && near.face != next.face);
                 nearest.push(next);
             }
-        });
+        }
         let order =
             |a: &Near, b: &Near| a.distance.total_cmp(&b.distance).then(a.face.cmp(&b.face));
         let first = *nearest.iter().min_by(|a, b| order(a, b))?;

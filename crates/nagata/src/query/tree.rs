@@ -77,29 +77,22 @@ impl Tree {
         }
     }
 
-    /// Visits the items that are not farther from `p` than `limit`, which may be lowered meanwhile, by their
-    /// boxes and by `distance`, a lower bound for an item; roughly the nearest first.
-    pub(super) fn visit_near(
-        &self,
-        p: DVec3,
-        limit: &Cell<f64>,
-        distance: impl Fn(usize) -> f64,
-        visit: impl FnMut(usize),
-    ) {
+    /// Visits the items whose box is not farther from `p` than `limit`, which may be lowered meanwhile;
+    /// roughly the nearest first.
+    pub(super) fn visit_near(&self, p: DVec3, limit: &Cell<f64>, mut visit: impl FnMut(usize)) {
         let squared = |distance: f64| (distance / self.unit) * (distance / self.unit);
         let most = || squared(limit.get());
         let keys = |node: &Node| {
-            let mut keys = node.squared_distances(p);
-            if let Some(first) = node.first_item() {
-                for (k, key) in keys[..node.count as usize].iter_mut().enumerate() {
-                    if *key <= most() {
-                        *key = squared(distance(first + k));
-                    }
+            let keys = node.squared_distances(p);
+            let Some(first) = node.first_item() else { return keys };
+            for (k, key) in keys[..node.count as usize].iter().enumerate() {
+                if *key <= most() {
+                    visit(first + k);
                 }
             }
-            keys
+            [f64::NAN; WIDTH]
         };
-        self.visit(most, keys, visit);
+        self.visit(most, keys, |_| ());
     }
 
     /// Visits the items whose box a ray meets before `limit` of its parameter, which may be lowered
@@ -120,7 +113,7 @@ impl Tree {
     fn visit(
         &self,
         most: impl Fn() -> f64,
-        keys: impl Fn(&Node) -> [f64; WIDTH],
+        mut keys: impl FnMut(&Node) -> [f64; WIDTH],
         mut visit: impl FnMut(usize),
     ) {
         let mut open: Vec<(f64, u32)> = Vec::with_capacity(64);
