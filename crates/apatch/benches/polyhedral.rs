@@ -30,7 +30,7 @@ fn elements(faces: usize) -> Throughput {
 
 fn c1(c: &mut Criterion) {
     let mut group = c.benchmark_group("c1_cubic");
-    for faces in [20, 100] {
+    for faces in [20, 100, 500] {
         let solid = solid(faces);
         group.throughput(elements(faces));
         group.bench_with_input(BenchmarkId::new("whole", faces), &solid, |b, solid| {
@@ -48,21 +48,34 @@ fn c1(c: &mut Criterion) {
     group.finish();
 }
 
+fn bench_whole(
+    group: &mut criterion::BenchmarkGroup<'_, criterion::measurement::WallTime>,
+    name: &str,
+    solid: &Polyhedron,
+) {
+    group.throughput(elements(solid.facets().len()));
+    group.bench_function(name, |b| {
+        b.iter(|| PolyhedralSurface::new(black_box(solid), &settings(Scheme::C2Quintic)));
+    });
+}
+
 fn c2(c: &mut Criterion) {
     let mut group = c.benchmark_group("c2_quintic");
     group.sample_size(10);
-    for faces in [20, 100] {
-        let solid = solid(faces);
-        group.throughput(elements(faces));
-        group.bench_with_input(BenchmarkId::new("whole", faces), &solid, |b, solid| {
-            b.iter(|| PolyhedralSurface::new(black_box(solid), &settings(Scheme::C2Quintic)));
-        });
+    for faces in [20, 100, 500] {
+        bench_whole(&mut group, &format!("whole/{faces}"), &solid(faces));
     }
-    let icosahedron = Polyhedron::named("icosahedron").expect("a solid");
-    group.throughput(elements(20));
-    group.bench_function("icosahedron", |b| {
-        b.iter(|| PolyhedralSurface::new(black_box(&icosahedron), &settings(Scheme::C2Quintic)));
-    });
+    // the next ones need conditions on signs
+    for name in ["icosahedron", "l-prism", "frame"] {
+        let solid = Polyhedron::named(name).expect("a solid");
+        bench_whole(&mut group, name, &solid);
+    }
+    let points = testkit::solids::sphere_points(2, 12);
+    bench_whole(
+        &mut group,
+        "random triangles",
+        &Polyhedron::convex_hull(&points).expect("a solid"),
+    );
     group.finish();
 }
 

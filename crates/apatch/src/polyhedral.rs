@@ -8,6 +8,7 @@ mod energy;
 mod error;
 mod fill;
 mod flat_face;
+mod form;
 mod guards;
 mod hull;
 mod joints;

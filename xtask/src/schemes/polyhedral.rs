@@ -34,7 +34,10 @@ pub(super) fn cases(effort: Effort) -> Vec<Case> {
             }));
         }
     }
-    cases.push(Case::new("40 random convex solids", C1, |_| random()));
+    cases.push(Case::new("40 random convex solids", C1, |_| random(Scheme::C1Cubic)));
+    if effort == Effort::Full {
+        cases.push(Case::new("40 random convex solids", C2, |_| random(Scheme::C2Quintic)));
+    }
     cases
 }
 
@@ -111,14 +114,17 @@ fn promises(name: &str, solid: &Polyhedron, scheme: Scheme) -> Result<Measured> 
 }
 
 /// Forty solids: even numbers with triangles for faces, odd ones with three edges at every corner.
-fn random() -> Result<Measured> {
+fn random(scheme: Scheme) -> Result<Measured> {
     let (mut valid, mut silent, mut faces, mut kink) = (0, 0, 0, 0.0_f64);
     for seed in 0..RANDOM {
         let solid = random_solid(seed)?;
-        let surface = PolyhedralSurface::new(&solid, &Settings::default())?;
+        let settings = Settings { scheme, ..Settings::default() };
+        let surface = PolyhedralSurface::new(&solid, &settings)?;
         let (joints, mesh) = (surface.joints(), surface.tessellate(4, 4));
         let (euler, rim) = topology_of(&mesh);
-        let sound = joints.gradient_jump <= 1e-12 && (euler, rim, mesh.missing) == (2, 0, 0);
+        let smooth = joints.gradient_jump <= 1e-12
+            && (scheme == Scheme::C1Cubic || joints.hessian_jump <= 1e-9);
+        let sound = smooth && (euler, rim, mesh.missing) == (2, 0, 0);
         let clean = surface.report().is_clean();
         valid += u32::from(clean && sound);
         silent += i64::from(clean && !sound);

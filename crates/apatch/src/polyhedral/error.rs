@@ -117,9 +117,22 @@ pub enum HullError {
         /// The vertex.
         vertex: usize,
     },
-    /// No set of points was found that guards all corners of a face.
-    #[error("no guards found for face {face}; split it into star-shaped faces or give guards")]
+    /// A corner of a face that no point of it sees from inside both edges, or, of a face with holes, that
+    /// none of the points around the holes sees.
+    #[error(
+        "face {face} has a corner that no point sees from inside both its edges and joins to the \
+         others; split the face into star-shaped ones"
+    )]
     NoGuards {
+        /// The face.
+        face: usize,
+    },
+    /// The points that see the corners of a face cannot be joined without branches or crossings.
+    #[error(
+        "the corners of face {face} need several points inside to see them, and these only join to a \
+         net with branches, which is not built; split the face into star-shaped ones"
+    )]
+    BranchingGuards {
         /// The face.
         face: usize,
     },

@@ -37,7 +37,7 @@ pub(crate) fn guards(solid: &Polyhedron, shape: &ShapeControl) -> Result<Guards,
         first_side += flat.loops.iter().map(Vec::len).sum::<usize>();
         let net = match shape.guards.get(&face) {
             Some(&given) => given_guard(solid, face, &flat, given)?,
-            None => net_of(&flat).ok_or(HullError::NoGuards { face })?,
+            None => net_of(&flat, face)?,
         };
         let start = all.points.len();
         let sides = flat.loops.iter().flatten().zip(net.of_corner.iter().flatten());
@@ -83,19 +83,21 @@ fn given_guard(
     Ok(Net::single(flat, p))
 }
 
-fn net_of(flat: &FlatFace) -> Option<Net> {
+fn net_of(flat: &FlatFace, face: usize) -> Result<Net, HullError> {
     if flat.is_convex() {
-        return Some(Net::single(flat, DVec2::ZERO));
+        return Ok(Net::single(flat, DVec2::ZERO));
     }
     if flat.loops.len() == 1
         && let Some(p) = flat.kernel_centre()
     {
-        return Some(Net::single(flat, p));
+        return Ok(Net::single(flat, p));
     }
-    let (points, of_corner) =
-        if flat.loops.len() == 1 { arcs(flat, 0)? } else { shared_with_holes(flat)? };
-    let fills = fill(&points, &walks(&of_corner))?;
-    Some(Net { points, of_corner, fills })
+    let found = if flat.loops.len() == 1 { arcs(flat, 0) } else { shared_with_holes(flat) };
+    let (points, of_corner) = found.ok_or(HullError::NoGuards { face })?;
+    match fill(&points, &walks(&of_corner)) {
+        Some(fills) => Ok(Net { points, of_corner, fills }),
+        None => Err(HullError::BranchingGuards { face }),
+    }
 }
 
 /// The steps from guard to guard along the loops.

@@ -18,8 +18,8 @@ const RAYS: usize = 16;
 /// The weights of all cells, 56 each.
 ///
 /// First the fairest function whatever its signs, which takes one sparse factorisation; if all its
-/// rays meet the surface once it is the answer. Otherwise a quadratic program with conditions on the
-/// signs of the weights, to which rays that still go wrong add conditions.
+/// rays meet the surface once it is the answer. Otherwise conditions on the signs of the weights are
+/// added, and then conditions for rays that still go wrong.
 pub(crate) fn quintic(
     hull: &Hull,
     report: &Report,

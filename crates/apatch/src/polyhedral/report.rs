@@ -17,7 +17,7 @@ pub struct FairnessReport {
     pub programs: usize,
     /// Conditions on signs that were added for rays.
     pub cuts: usize,
-    /// Whether the last solution was as accurate as asked.
+    /// Whether the last solution has all the signs that were asked for.
     pub accurate: bool,
     /// Largest violation of a smoothness condition that is left, in sizes of the solid.
     pub residual: f64,
@@ -43,7 +43,8 @@ pub struct Report {
     pub findings: Vec<Finding>,
     /// The smallest margins of the hull.
     pub margins: Margins,
-    /// Rays that do not meet the surface exactly once, and all rays that were tried.
+    /// Rays that do not meet the surface exactly once, and the number of all; they are tried where the
+    /// signs of the weights do not decide.
     pub bad_rays: [usize; 2],
     /// The quadratic program of a quintic.
     pub fairness: Option<FairnessReport>,

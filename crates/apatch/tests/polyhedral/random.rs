@@ -31,6 +31,30 @@ fn forty_random_solids() {
     assert!(flipped <= 1, "meshes with facets that look the wrong way: {flipped}");
 }
 
+/// The same in C2. Run with `cargo test -p apatch --release -- --ignored`.
+#[test]
+#[ignore = "some minutes in the release profile"]
+fn forty_random_solids_in_c2() {
+    let mut invalid = Vec::new();
+    for seed in 0..40 {
+        let solid = convex_solid(seed);
+        let surface = PolyhedralSurface::new(&solid, &settings(Scheme::C2Quintic)).unwrap();
+        let report = surface.report();
+        let jumps = jumps(&surface);
+        let mesh = surface.tessellate(8, 6);
+        let fine = jumps.gradient <= 1e-12
+            && jumps.hessian <= 1e-9
+            && jumps.angle <= 1e-11
+            && report.bad_rays[0] == 0
+            && closed_characteristic(&mesh) == Some(2);
+        assert!(fine || !report.is_clean(), "solid {seed} is wrong in silence: {jumps:?}");
+        if !report.is_clean() {
+            invalid.push((seed, report.bad_rays, report.findings.len()));
+        }
+    }
+    assert!(invalid.len() <= 2, "not valid: {invalid:?}");
+}
+
 fn scaled(solid: &Polyhedron, factor: f64) -> Polyhedron {
     let vertices = solid.vertices().iter().map(|p| *p * factor).collect();
     let faces = solid.facets().iter().map(|f| f.loops.clone()).collect();

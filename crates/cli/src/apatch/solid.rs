@@ -250,7 +250,7 @@ fn warnings(surface: &PolyhedralSurface, sampled: &Sampled) -> Vec<String> {
     }
     if report.fairness.is_some_and(|f| !f.accurate) {
         warnings
-            .push("the quadratic program ended at reduced accuracy: less fair, but smooth".into());
+            .push("some weights have the wrong sign; the surface is smooth, see bad rays".into());
     }
     let flipped = sampled.mesh.flipped_facets();
     if flipped > 0 {
