@@ -5,9 +5,15 @@ use crate::workplace::Workplace;
 #[test]
 fn every_help_has_examples_and_exit_codes() {
     let place = Workplace::new();
-    for line in
-        ["--help", "fit --help", "check --help", "nagata --help", "apatch --help", "render --help", "shapes --help"]
-    {
+    for line in [
+        "--help",
+        "fit --help",
+        "check --help",
+        "nagata --help",
+        "apatch --help",
+        "render --help",
+        "shapes --help",
+    ] {
         let help = place.succeed(line);
         for part in ["Examples:\n  smoothpatch ", "Exit codes:\n  0  success"] {
             assert!(help.contains(part), "`{line}` lacks {part:?}:\n{help}");

@@ -37,9 +37,15 @@ fn pictures_do_not_depend_on_threads() {
     };
     let plain = picture("--threads 1");
     assert_eq!(plain, picture("--threads 3"), "threads");
-    for other in
-        ["--edges", "--view top", "--view 10,20", "--up y", "--zoom 2", "--centre 1,0,0", "--stripes 5"]
-    {
+    for other in [
+        "--edges",
+        "--view top",
+        "--view 10,20",
+        "--up y",
+        "--zoom 2",
+        "--centre 1,0,0",
+        "--stripes 5",
+    ] {
         assert_ne!(plain, picture(other), "{other} changes the picture");
     }
 }
