@@ -82,12 +82,13 @@ pub fn draw(
     size: [usize; 2],
     style: &Style<'_>,
 ) -> Result<Picture, DrawError> {
+    let [width, height] = size;
+    let extent = DVec2::new(width as f64, height as f64);
+    let middle = extent * 0.5;
     let on_screen = threads::map(patches.count(), |patch| {
-        ScreenPatch::new(patches, patch, camera).ok_or(DrawError::NotFinite { patch })
+        ScreenPatch::new(patches, patch, camera, extent).ok_or(DrawError::NotFinite { patch })
     });
     let on_screen = on_screen.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let [width, height] = size;
-    let middle = DVec2::new(width as f64, height as f64) * 0.5;
     let painter = Painter { patches, camera, style };
     let bands = threads::map(height.div_ceil(BAND), |band| {
         let first_row = band * BAND;

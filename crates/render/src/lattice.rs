@@ -2,7 +2,7 @@
 //!
 //! A patch is divided until its triangles are nearer than [`TOLERANCE`] pixels. Sides are divided
 //! after their own curve, which both neighbours know; where a patch is divided finer than a side, its
-//! points on that side are moved to the coarser line.
+//! points on that side are moved to the coarser line. Patches outside the picture are not divided.
 
 use glam::{DVec2, DVec3};
 
@@ -28,22 +28,34 @@ pub(crate) struct ScreenPatch {
 }
 
 impl ScreenPatch {
-    /// `None` if a point is not finite.
-    pub(crate) fn new(patches: &dyn Patches, patch: usize, camera: &Camera) -> Option<Self> {
+    /// `None` if a point is not finite; without points if the patch is outside a picture of this size.
+    pub(crate) fn new(
+        patches: &dyn Patches,
+        patch: usize,
+        camera: &Camera,
+        size: DVec2,
+    ) -> Option<Self> {
         let domain = patches.domain(patch);
         let place = |at: DVec2| camera.project(patches.point(patch, at));
         let coarse: Vec<DVec3> = domain.lattice(COARSE).map(place).collect();
+        let bending = bending(domain, &coarse);
+        if !bending.is_finite() || !coarse.iter().all(|point| point.is_finite()) {
+            return None;
+        }
+        if is_outside(&coarse, bending, size) {
+            let rows = [f64::INFINITY, f64::NEG_INFINITY];
+            return Some(Self { domain, divisions: 0, points: Vec::new(), rows });
+        }
         let sides = domain.corners().len();
         let of_sides: Vec<usize> =
             (0..sides).map(|side| side_divisions(domain, side, &coarse)).collect();
-        let inside = divisions_for(bending(domain, &coarse));
-        let divisions = of_sides.iter().copied().fold(inside, usize::max);
+        let divisions = of_sides.iter().copied().fold(divisions_for(bending), usize::max);
         let mut points: Vec<DVec3> = domain.lattice(divisions).map(place).collect();
-        for (side, &of_side) in of_sides.iter().enumerate() {
-            straighten(domain, divisions, side, of_side, &mut points);
-        }
         if !points.iter().all(|point| point.is_finite()) {
             return None;
+        }
+        for (side, &of_side) in of_sides.iter().enumerate() {
+            straighten(domain, divisions, side, of_side, &mut points);
         }
         let downwards = points.iter().map(|point| point.y);
         let rows = [
@@ -71,6 +83,16 @@ impl ScreenPatch {
             }
         }
     }
+}
+
+/// Whether a patch with these points cannot be seen in the picture, even if it bends beyond them.
+fn is_outside(coarse: &[DVec3], bending: f64, size: DVec2) -> bool {
+    // between points at most the distance that was measured, and as much again to be safe
+    let reach = size * 0.5 + 2.0 * bending;
+    let places = || coarse.iter().map(|point| point.truncate());
+    let low = places().fold(DVec2::INFINITY, DVec2::min);
+    let high = places().fold(DVec2::NEG_INFINITY, DVec2::max);
+    low.cmpgt(reach).any() || high.cmplt(-reach).any()
 }
 
 /// The largest distance of the middle of a step from the point with the same parameters, for `COARSE`

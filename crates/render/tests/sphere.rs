@@ -154,6 +154,24 @@ fn normals_are_those_of_the_sphere_under_each_pixel() {
 }
 
 #[test]
+fn a_part_is_drawn_as_in_the_whole() {
+    let sphere = Sphere(Domain::Triangle);
+    let whole = camera(&sphere);
+    // eight times larger, around a point off the middle
+    let [right, up, _] = whole.axes;
+    let centre = whole.centre + right * 0.4 + up * 0.3;
+    let near = Camera { centre, pixels_per_length: 8.0 * whole.pixels_per_length, ..whole };
+    let part = draw(&sphere, &near, SIZE, &Style::new(Shade::Normals)).expect("finite");
+    for (row, column) in (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |column| (row, column)))
+    {
+        let flat = DVec2::new(0.4, 0.3) + middle(column, row) / near.pixels_per_length;
+        let expected = flat.extend((1.0 - flat.length_squared()).sqrt());
+        let found = DVec3::from_array(part.pixel(column, row).to_srgb()) * 2.0 - DVec3::ONE;
+        assert!(found.distance(expected) < 0.2 / (0.43 * near.pixels_per_length), "{flat}");
+    }
+}
+
+#[test]
 fn the_far_side_is_hidden() {
     let sphere = Sphere(Domain::Square);
     let camera = camera(&sphere);
