@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::JetError;
 use crate::jet::{FitQuality, VertexJet};
 use crate::polynomial::{Polynomial, coefficient_count};
-use crate::rings::neighbours;
+use crate::rings::{Neighbours, neighbours};
 use crate::settings::JetSettings;
 
 /// Fits in turn to the axis found by the one before: the first one is that of the faces.
@@ -59,19 +59,20 @@ fn fit_jet(
     vertex: VertexId,
     settings: &JetSettings,
 ) -> Option<VertexJet> {
-    let least = settings.max_turning.cos();
+    let (near, far) = (settings.max_turning.cos(), settings.max_far_turning.cos());
     let normal = normals[vertex];
-    let accept = |v: VertexId| normals[v].dot(normal) > least;
+    let accept =
+        |v: VertexId, ring: usize| normals[v].dot(normal) > if ring == 1 { near } else { far };
     (2..=settings.degree).rev().find_map(|degree| {
         let needed = coefficient_count(degree);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let wanted = (needed as f64 * settings.points_per_coefficient).ceil() as usize;
-        let (found, rings) = neighbours(mesh, vertex, wanted, accept);
-        if found.len() < needed {
+        let Neighbours { vertices, rings, complete } = neighbours(mesh, vertex, wanted, accept);
+        if vertices.len() < needed || !(complete || degree == 2) {
             return None;
         }
         let offsets: Vec<DVec3> =
-            found.iter().map(|&v| mesh.position(v) - mesh.position(vertex)).collect();
+            vertices.iter().map(|&v| mesh.position(v) - mesh.position(vertex)).collect();
         let mut axis = normal;
         let mut jet = None;
         for _ in 0..ROUNDS {
@@ -97,8 +98,7 @@ fn normal_error(
         let normal = jet.normal_at(mesh.position(v)).unwrap_or(-normals[v]);
         normal.cross(normals[v]).length().atan2(normal.dot(normals[v]))
     };
-    let (ring, _) = neighbours(mesh, vertex, 1, |_| true);
-    ring.into_iter().map(lean).fold(0.0, f64::max)
+    neighbours(mesh, vertex, 1, |_, _| true).vertices.into_iter().map(lean).fold(0.0, f64::max)
 }
 
 /// Least squares in the frame with this third axis; `None` if a number is not finite.

@@ -5,31 +5,43 @@ use basemesh::{TriMesh, VertexId};
 /// Rings that are tried at most.
 const MOST_RINGS: usize = 6;
 
-/// The vertices around `centre` that `accept` takes, ring by ring until there are `enough`, each ring
-/// complete and ascending by id; and the number of rings. Rings grow through accepted vertices only.
+/// Vertices around another.
+pub(crate) struct Neighbours {
+    /// Ring after ring, each ascending by id.
+    pub(crate) vertices: Vec<VertexId>,
+    /// How many rings.
+    pub(crate) rings: usize,
+    /// Whether all vertices of these rings are there.
+    pub(crate) complete: bool,
+}
+
+/// The vertices around `centre` that `accept` takes, whole rings until there are `enough`. `accept` is
+/// told the ring; rings grow through accepted vertices only.
 pub(crate) fn neighbours(
     mesh: &TriMesh,
     centre: VertexId,
     enough: usize,
-    accept: impl Fn(VertexId) -> bool,
-) -> (Vec<VertexId>, usize) {
-    let mut found = Vec::with_capacity(2 * enough);
+    accept: impl Fn(VertexId, usize) -> bool,
+) -> Neighbours {
+    let vertices = Vec::with_capacity(2 * enough);
+    let mut found = Neighbours { vertices, rings: 0, complete: true };
     let mut ring = vec![centre];
-    for rings in 1..=MOST_RINGS {
+    while found.vertices.len() < enough && found.rings < MOST_RINGS && !ring.is_empty() {
         let mut next: Vec<VertexId> = ring
             .iter()
             .flat_map(|&v| adjacent(mesh, v))
-            .filter(|&v| v != centre && !found.contains(&v) && accept(v))
+            .filter(|v| *v != centre && !found.vertices.contains(v))
             .collect();
         next.sort_unstable();
         next.dedup();
-        found.extend_from_slice(&next);
-        if found.len() >= enough || next.is_empty() {
-            return (found, rings);
-        }
+        found.rings += 1;
+        let all = next.len();
+        next.retain(|&v| accept(v, found.rings));
+        found.complete &= next.len() == all;
+        found.vertices.extend_from_slice(&next);
         ring = next;
     }
-    (found, MOST_RINGS)
+    found
 }
 
 /// The other ends of the edges of a vertex.

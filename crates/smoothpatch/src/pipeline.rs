@@ -17,8 +17,9 @@ use crate::measure::{FaceDeviation, face_deviations};
 use crate::memory::{Keys, Memory, Recall};
 use crate::objectives::Objectives;
 use crate::progress::{Clock, Progress, Stage, StageTimes};
+use crate::reconcile::reconciled;
 use crate::repair::{edges_to_split, refine};
-use crate::settings::Settings;
+use crate::settings::{SecondForms, Settings};
 use crate::source::{FieldSource, FitSource};
 use crate::surface::{BaseMeshOrigin, G1Surface, Polygonized};
 
@@ -149,7 +150,7 @@ pub(crate) fn fit_mesh(
 ) -> Result<G1Surface, FitError> {
     let (jets, curves) = loop {
         let vertices = mesh.topology().vertex_count();
-        let jets = clock.run(Stage::Vertices, vertices, || vertex_jets(&mesh, source))?;
+        let jets = clock.run(Stage::Vertices, vertices, || vertex_jets(&mesh, source, settings))?;
         let edges = mesh.topology().edge_count();
         let curves =
             clock.run(Stage::Curves, edges, || fit_curves(&mesh, &jets, source, settings))?;
@@ -192,11 +193,15 @@ pub(crate) fn fit_again(
     let [vertices, edges, faces] =
         [topology.vertex_count(), topology.edge_count(), topology.face_count()];
     let keys = Keys::new(&mesh);
+    if settings.second_forms != SecondForms::Given {
+        // data at a vertex then depend on its neighbours, which the keys do not know
+        *memory = Memory::default();
+    }
     let recall = Recall { memory, keys: &keys };
     let objectives = Objectives::uniform(topology, settings);
     let plan = &objectives.patches;
 
-    let jets = clock.run(Stage::Vertices, vertices, || vertex_jets(&mesh, source))?;
+    let jets = clock.run(Stage::Vertices, vertices, || vertex_jets(&mesh, source, settings))?;
     let curves = clock.run(Stage::Curves, edges, || {
         EdgeMap::try_from_fn(edges, |edge| {
             let fit = || fit_curve(&mesh, &jets, source, settings, edge, settings.curve_refinement);
@@ -282,10 +287,18 @@ fn retreat(
 }
 
 /// Position, normal and second fundamental form at every vertex.
-fn vertex_jets(mesh: &TriMesh, source: &dyn FitSource) -> Result<VertexMap<SurfaceJet>, FitError> {
-    VertexMap::try_from_fn(mesh.topology().vertex_count(), |vertex| {
+fn vertex_jets(
+    mesh: &TriMesh,
+    source: &dyn FitSource,
+    settings: &Settings,
+) -> Result<VertexMap<SurfaceJet>, FitError> {
+    let jets = VertexMap::try_from_fn(mesh.topology().vertex_count(), |vertex| {
         let at = mesh.position(vertex);
         source.surface_jet(vertex, at).ok_or(FitError::Singular { vertex: vertex.index(), at })
+    })?;
+    Ok(match settings.second_forms {
+        SecondForms::Given => jets,
+        SecondForms::AgreeAlongEdges => reconciled(mesh, &jets),
     })
 }
 

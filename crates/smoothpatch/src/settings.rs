@@ -16,6 +16,17 @@ pub enum Method {
     Published,
 }
 
+/// Where second fundamental forms at vertices come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SecondForms {
+    /// From the source alone.
+    #[default]
+    Given,
+    /// From the source, unless they contradict positions and normals along edges by more than 5 % of the
+    /// curvature: then the nearest ones that do not. For estimated data.
+    AgreeAlongEdges,
+}
+
 /// Settings of [`fit`](crate::fit): every number of every stage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -23,6 +34,8 @@ pub struct Settings {
     pub base_mesh: BaseMeshSettings,
     /// Newton projection onto the surface.
     pub projection: ProjectionSettings,
+    /// Second fundamental forms at the vertices.
+    pub second_forms: SecondForms,
     /// Sections of a curve between its samples: `sections - 1` samples at equidistant parameters.
     pub curve_sections: usize,
     /// The curve of one edge.
@@ -58,6 +71,7 @@ impl Settings {
                 repair_rounds: 4,
             },
             projection: ProjectionSettings::default(),
+            second_forms: SecondForms::Given,
             curve_sections: 10,
             curves: hermite_sqp::Settings::default(),
             curve_refinement: CurveRefinement::TangentFree,

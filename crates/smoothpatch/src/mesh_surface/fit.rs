@@ -8,7 +8,7 @@ use crate::adapt::{Tolerance, fit_dense_mesh_to_tolerance};
 use crate::error::FitError;
 use crate::pipeline::{fit_dense_mesh, fit_source};
 use crate::progress::Progress;
-use crate::settings::Settings;
+use crate::settings::{SecondForms, Settings};
 use crate::surface::G1Surface;
 
 /// Which triangles become patches.
@@ -27,7 +27,8 @@ const DENSE: usize = 4;
 /// The same for an accuracy.
 const DENSE_FOR_TOLERANCE: usize = 4000;
 
-/// The G1 spline near the smooth surface of a mesh.
+/// The G1 spline near the smooth surface of a mesh; second fundamental forms that contradict the normals are
+/// changed, see [`SecondForms::AgreeAlongEdges`].
 ///
 /// # Errors
 ///
@@ -40,6 +41,7 @@ pub fn fit_mesh_field(
 ) -> Result<G1Surface, FitError> {
     let source = MeshSource::new(field, settings.projection);
     let mesh = field.mesh();
+    let settings = &Settings { second_forms: SecondForms::AgreeAlongEdges, ..settings.clone() };
     match base {
         MeshBase::Keep => fit_source(&source, mesh.clone(), settings, progress),
         MeshBase::Faces => {
