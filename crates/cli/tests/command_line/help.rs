@@ -11,6 +11,7 @@ fn every_help_has_examples_and_exit_codes() {
         "check --help",
         "nagata --help",
         "apatch --help",
+        "query --help",
         "render --help",
         "shapes --help",
     ] {
