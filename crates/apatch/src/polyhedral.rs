@@ -24,6 +24,7 @@ mod rays;
 mod report;
 mod settings;
 mod signs;
+mod single_sheet;
 mod skeleton;
 mod solids;
 mod surface;

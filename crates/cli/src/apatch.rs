@@ -103,6 +103,7 @@ pub(crate) fn run(arguments: &ApatchArguments) -> anyhow::Result<Outcome> {
     if arguments.solid.is_used() {
         bail!("--cut and --weights are for solids; add --scheme c1-cubic or c2-quintic");
     }
+    arguments.options.refuse_solids()?;
     files.check_distinct(arguments.options.files_read().into_iter().chain(reference).collect())?;
 
     let start = Instant::now();

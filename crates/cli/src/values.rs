@@ -17,6 +17,17 @@ pub(crate) fn finite(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A share: a number between 0 and 1.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    finite(text).and_then(|value| {
+        if value > 0.0 && value < 1.0 {
+            Ok(value)
+        } else {
+            Err("give a number between 0 and 1".into())
+        }
+    })
+}
+
 /// A bound: a number that is not negative.
 pub(crate) fn bound(text: &str) -> Result<f64, String> {
     finite(text).and_then(|value| {

@@ -133,8 +133,8 @@ impl<'a> Joint<'a> {
     /// there: zero for one and two points off if the function is C2 \[BCX94 (2.8), (2.9), (2.11)\].
     pub(crate) fn difference(&self, index: [usize; 4]) -> Vec<(usize, f64)> {
         let mut own = vec![([0; 4], 1.0)];
-        for c in 0..4 {
-            for _ in 0..index[c] {
+        for (c, &times) in index.iter().enumerate() {
+            for _ in 0..times {
                 own = match self.common[c] {
                     Some(at) => own.iter().map(|&(i, x)| (raised(i, at), x)).collect(),
                     None => {

@@ -40,10 +40,20 @@ const MARGIN: f64 = 1e-9;
 
 /// The weights of all cells, 20 each.
 pub(crate) fn cubic(hull: &Hull, shape: &ShapeControl) -> Vec<f64> {
-    let upper = hull.triangles.iter().map(|t| t.apices.map(|q| q.map(|_| Upper::default())));
-    let mut weights = Weights { hull, middle: Vec::new(), upper: upper.collect() };
+    with_middle(hull, shape, default_middle(hull, shape))
+}
+
+/// Number 2 of all triangles.
+pub(crate) fn default_middle(hull: &Hull, shape: &ShapeControl) -> Vec<f64> {
+    let mut weights = Weights::with_middle(hull, Vec::new());
     weights.middle = (0..hull.triangles.len()).map(|t| weights.default_middle(t, shape)).collect();
     middle_weights::balance(&mut weights);
+    weights.middle
+}
+
+/// The weights of all cells for given numbers 2.
+pub(crate) fn with_middle(hull: &Hull, shape: &ShapeControl, middle: Vec<f64>) -> Vec<f64> {
+    let mut weights = Weights::with_middle(hull, middle);
     for e in 0..hull.edges.len() {
         for side in Side::BOTH {
             if let Some(split) = &hull.edges[e].splits[side.index()] {
@@ -80,7 +90,13 @@ fn tension(hull: &Hull, shape: &ShapeControl, t: usize) -> f64 {
     if count > 0.0 { sum / count } else { shape.tension }
 }
 
-impl Weights<'_> {
+impl<'a> Weights<'a> {
+    /// Nothing known but numbers 2.
+    pub(crate) fn with_middle(hull: &'a Hull, middle: Vec<f64>) -> Self {
+        let upper = hull.triangles.iter().map(|t| t.apices.map(|q| q.map(|_| Upper::default())));
+        Self { hull, middle, upper: upper.collect() }
+    }
+
     fn point(&self, p: usize) -> DVec3 {
         self.hull.points[p]
     }

@@ -6,9 +6,9 @@ use super::cubic::{Weights, is_coplanar, three_matrix};
 use crate::rational::Side;
 
 /// One linear equation for the middle weights of two triangles: triangles, factors, right-hand side.
-struct Equation {
-    triangles: [usize; 2],
-    factors: [f64; 2],
+pub(crate) struct Equation {
+    pub(crate) triangles: [usize; 2],
+    pub(crate) factors: [f64; 2],
     right: f64,
 }
 
@@ -47,7 +47,8 @@ pub(crate) fn balance(weights: &mut Weights<'_>) {
     }
 }
 
-fn equations(weights: &Weights<'_>) -> Vec<Equation> {
+/// The equations for all edges between coplanar triangles.
+pub(crate) fn equations(weights: &Weights<'_>) -> Vec<Equation> {
     let mut equations = Vec::new();
     for (e, edge) in weights.hull.edges.iter().enumerate() {
         for side in Side::BOTH {

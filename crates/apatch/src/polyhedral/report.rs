@@ -46,6 +46,8 @@ pub struct Report {
     /// Rays that do not meet the surface exactly once, and the number of all; they are tried where the
     /// signs of the weights do not decide.
     pub bad_rays: [usize; 2],
+    /// Rays for which the middle weights of a cubic were changed.
+    pub repaired_rays: usize,
     /// The quadratic program of a quintic.
     pub fairness: Option<FairnessReport>,
 }
@@ -66,6 +68,7 @@ impl Report {
             findings,
             margins,
             bad_rays: [0, 0],
+            repaired_rays: 0,
             fairness: None,
         }
     }

@@ -11,6 +11,7 @@ use super::polyhedron::Polyhedron;
 use super::quintic::quintic;
 use super::report::Report;
 use super::settings::{Scheme, Settings};
+use super::single_sheet::repair;
 use super::skeleton::{Trial, skeleton};
 use crate::bernstein;
 use crate::tetrahedron::gradient;
@@ -93,6 +94,10 @@ impl PolyhedralSurface {
         };
         let mut surface = Self { hull, degree, weights, report };
         surface.report.bad_rays = surface.count_bad_rays(RAYS);
+        if settings.scheme == Scheme::C1Cubic && surface.report.bad_rays[0] > 0 {
+            surface.report.repaired_rays = repair(&mut surface, &settings.shape, RAYS);
+            surface.report.bad_rays = surface.count_bad_rays(RAYS);
+        }
         Ok(surface)
     }
 

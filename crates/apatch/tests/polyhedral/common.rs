@@ -168,6 +168,16 @@ pub(crate) fn convex_solid(seed: u64) -> Polyhedron {
     }
 }
 
+/// The upright prism of height 1 over a polygon, counter-clockwise from above.
+pub(crate) fn prism(polygon: &[[f64; 2]]) -> Polyhedron {
+    let n = polygon.len();
+    let at = |z: f64| polygon.iter().map(move |&[x, y]| DVec3::new(x, y, z));
+    let sides = (0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]);
+    let ends = [(0..n).rev().collect(), (n..2 * n).collect()];
+    let faces = sides.chain(ends).map(|outline: Vec<usize>| vec![outline]).collect();
+    Polyhedron::new(at(0.0).chain(at(1.0)).collect(), faces, &Planarity::default()).unwrap()
+}
+
 /// Number of pairs of tetrahedra with a common inner point, among some points of each.
 pub(crate) fn overlapping_pairs(hull: &Hull) -> usize {
     let mut numbers = Numbers::new(5);

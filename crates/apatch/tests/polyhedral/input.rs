@@ -5,7 +5,7 @@ use apatch::polyhedral::{
     Finding, HullError, Planarity, PolyhedralSurface, Polyhedron, Settings, ShapeControl,
 };
 
-use super::common::{convex_solid, overlapping_pairs, read, solid};
+use super::common::{convex_solid, overlapping_pairs, prism, read, solid};
 
 fn cube() -> (Vec<DVec3>, Vec<Vec<Vec<usize>>>) {
     let cube = given("cube");
@@ -118,4 +118,15 @@ fn bad_settings_are_refused() {
     refused(settings.clone(), "shape control for face 6, but there are only 6");
     settings.shape = ShapeControl { cut: f64::NAN, ..ShapeControl::default() };
     refused(settings, "the setting shape cut is NaN");
+}
+
+/// A face like the letter M: guards in the three legs, and none that joins them without a branch.
+#[test]
+fn faces_that_need_a_branching_net() {
+    let comb = [0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 5.0, 5.0, 0.0];
+    let height = [0.0, 0.0, 3.0, 3.0, 0.0, 0.0, 3.0, 3.0, 0.0, 0.0, 4.0, 4.0];
+    let outline: Vec<_> = comb.into_iter().zip(height).map(|(x, y)| [x, y]).collect();
+    let error = PolyhedralSurface::new(&prism(&outline), &Settings::default()).unwrap_err();
+    assert_eq!(error, HullError::BranchingGuards { face: 12 });
+    assert!(error.to_string().starts_with("the corners of face 12 need several points"), "{error}");
 }

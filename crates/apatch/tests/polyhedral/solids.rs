@@ -1,9 +1,9 @@
 //! The fifteen solids in both schemes.
 
-use apatch::glam::DVec3;
+use apatch::glam::{DVec2, DVec3};
 use apatch::polyhedral::{PolyhedralSurface, Polyhedron, Scheme, Settings};
 
-use super::common::{closed_characteristic, jumps, settings, solids};
+use super::common::{closed_characteristic, jumps, prism, settings, solids};
 
 /// Jumps of gradients, relative, and angles of normals.
 const GRADIENT: f64 = 1e-13;
@@ -73,6 +73,32 @@ fn platonic_solids_become_their_inscribed_spheres() {
             let worst = mesh.positions.iter().map(off).fold(0.0, f64::max);
             assert!(worst <= 1e-10, "{name} {scheme:?}: {worst}");
         }
+    }
+}
+
+/// Prisms over a T and a cross, in which rays fall back before the middle weights are changed.
+#[test]
+fn rays_are_repaired() {
+    let letter: &[[f64; 2]] = &[
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, -2.0],
+        [2.0, -2.0],
+        [2.0, 0.0],
+        [3.0, 0.0],
+        [3.0, 1.0],
+        [0.0, 1.0],
+    ];
+    let quarter = |k: usize| DVec2::from_angle(std::f64::consts::FRAC_PI_2 * k as f64);
+    let inner = DVec2::new(0.5, 0.5);
+    let outer = [DVec2::new(2.5, -0.5), DVec2::new(2.5, 0.5)];
+    let cross: Vec<[f64; 2]> = (0..4)
+        .flat_map(|k| [outer[0], outer[1], inner].map(|p| quarter(k).rotate(p).to_array()))
+        .collect();
+    for outline in [letter, &cross] {
+        check("prism", &prism(outline), &settings(Scheme::C1Cubic));
+        let surface = PolyhedralSurface::new(&prism(outline), &Settings::default()).unwrap();
+        assert!(surface.report().repaired_rays > 0, "the repair was needed");
     }
 }
 

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use smoothpatch::apatch::polyhedral::Scheme;
+use smoothpatch::apatch::polyhedral::{SOLID_NAMES, Scheme};
 use smoothpatch::apatch::rational::{FreeWeightRule, RepairSettings, Settings};
 
 use super::tension::Tension;
 use crate::nagata::options::NormalsName;
+use crate::output_files::extension;
 
 /// A mesh and what is made of it.
 #[derive(Args)]
@@ -37,7 +38,7 @@ pub(crate) struct RationalOptions {
 
     /// From -1 (as far out as the surface stays in one piece) over 0 (the rule's choice) to any
     /// positive number (close to the triangles): one number, or a .ron or .json file with one for
-    /// each face
+    /// each face. For c1-cubic from -1 to 50: each unit doubles the pull inwards
     #[arg(long, value_name = "T|FILE", default_value = "0", value_parser = Tension::parse)]
     #[arg(allow_hyphen_values = true)]
     tension: Tension,
@@ -81,6 +82,16 @@ impl RationalOptions {
             Some((name, _)) => anyhow::bail!("{name} is not for solids; use --scheme rational"),
             None => Ok(Some(scheme)),
         }
+    }
+
+    /// Refuses names and files of solids, which need another scheme.
+    pub(crate) fn refuse_solids(&self) -> anyhow::Result<()> {
+        let named = SOLID_NAMES.iter().any(|name| self.mesh == Path::new(name));
+        if (named && !self.mesh.exists()) || extension(&self.mesh) == "off" {
+            let name = self.mesh.display();
+            anyhow::bail!("{name} is a solid; add --scheme c1-cubic or c2-quintic");
+        }
+        Ok(())
     }
 
     /// Settings of the construction.

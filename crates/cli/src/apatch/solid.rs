@@ -28,7 +28,7 @@ use crate::table::{Table, bytes, degrees, length};
 pub(crate) struct SolidOptions {
     /// How far the surface goes into corners of more than three edges, between 0 (cut off) and 1
     /// (the corner itself); only with the schemes for solids [default: as for a quadric]
-    #[arg(long, value_name = "A", value_parser = crate::values::finite)]
+    #[arg(long, value_name = "A", value_parser = crate::values::share)]
     cut: Option<f64>,
 
     /// Also write all tetrahedra with their weights, as JSON; only with the schemes for solids

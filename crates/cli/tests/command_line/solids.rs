@@ -64,12 +64,14 @@ fn what_is_refused() {
             "apatch frame.off --scheme c1-cubic --normals file -o a.obj",
             "--normals is not for solids",
         ),
-        ("apatch frame.off --scheme c1-cubic --cut 1.5 -o a.obj", "hull.alpha is 1.5"),
+        ("apatch frame.off --scheme c1-cubic --cut 1.5 -o a.obj", "give a number between 0 and 1"),
         ("apatch frame.off --scheme c2-quintic --tension 1 -o a.obj", "--tension"),
         (
             "apatch frame.off --scheme c1-cubic -o a.step",
             "files of this kind hold polynomial patches",
         ),
+        ("apatch cube -o a.obj", "cube is a solid; add --scheme c1-cubic or c2-quintic"),
+        ("apatch frame.off -o a.obj", "frame.off is a solid; add --scheme"),
         ("apatch frame.off --cut 0.5 -o a.obj", "--cut and --weights are for solids"),
     ] {
         let arguments: Vec<&str> = options.split_whitespace().collect();
