@@ -29,13 +29,9 @@ pub(super) fn write(samples: &mut Samples) -> Result<()> {
     let facts = volume(&torus, &exact, 6.0 * PI * PI, 12.0 * PI * PI);
     step(samples, "mesh-torus.step", &torus, facts)?;
 
-    let kept = fitted("torus_20x10.obj", MeshBase::Keep, 0)?;
-    let exact = Torus { major_radius: 5.0, minor_radius: 1.0 };
-    let facts = volume(&kept, &exact, 10.0 * PI * PI, 20.0 * PI * PI);
-    step(samples, "mesh-torus-kept.step", &kept, facts)?;
-
-    let spot = fitted("spot_triangulated.obj", MeshBase::Faces, 600)?;
-    step(samples, "mesh-spot.step", &spot, json!({ "smooth": true }))
+    let kept = fitted("sphere_1280.stl", MeshBase::Keep, 0)?;
+    let facts = volume(&kept, &Sphere::default(), 4.0 * PI / 3.0, 4.0 * PI);
+    step(samples, "mesh-sphere-kept.step", &kept, facts)
 }
 
 fn fitted(name: &str, base: MeshBase, faces: usize) -> Result<G1Surface> {

@@ -21,16 +21,12 @@ pub(super) fn cases() -> Vec<Case> {
         Case::new("sphere, STL of 1280", SCHEME, |_| {
             let expected = Expected { euler: 2, vertices: 1e-7, triangles: 4e-3 };
             let exact = Sphere::default();
-            fitted("sphere_1280.stl", MeshBase::Keep, Some((&exact, 2e-6)), &expected)
+            fitted("sphere_1280.stl", MeshBase::Keep, Some((&exact, 1e-5)), &expected)
         }),
         Case::new("torus, PLY of 2304", SCHEME, |_| {
             let expected = Expected { euler: 0, vertices: 2e-4, triangles: 2e-3 };
             let exact = Torus { major_radius: 3.0, minor_radius: 1.0 };
             fitted("torus_48x24.ply", MeshBase::Faces, Some((&exact, 2e-4)), &expected)
-        }),
-        Case::new("spot, OBJ of 5856", SCHEME, |_| {
-            let expected = Expected { euler: 2, vertices: 1e-2, triangles: 1e-2 };
-            fitted("spot_triangulated.obj", MeshBase::Faces, None, &expected)
         }),
         Case::new("torus 5, 1", "jets", |_| jets()),
     ]
