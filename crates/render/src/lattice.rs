@@ -89,7 +89,7 @@ impl ScreenPatch {
 fn is_outside(coarse: &[DVec3], bending: f64, size: DVec2) -> bool {
     // between points at most the distance that was measured, and as much again to be safe
     let reach = size * 0.5 + 2.0 * bending;
-    let places = || coarse.iter().map(|point| point.truncate());
+    let places = || coarse.iter().copied().map(DVec3::truncate);
     let low = places().fold(DVec2::INFINITY, DVec2::min);
     let high = places().fold(DVec2::NEG_INFINITY, DVec2::max);
     low.cmpgt(reach).any() || high.cmplt(-reach).any()

@@ -57,7 +57,7 @@ impl Band {
     }
 
     fn add_triangle(&mut self, patch: usize, corners: [DVec3; 3], at: [DVec2; 3]) {
-        let [a, b, c] = corners.map(|corner| corner.truncate());
+        let [a, b, c] = corners.map(DVec3::truncate);
         let twice_area = (b - a).perp_dot(c - a);
         let low = a.min(b).min(c) - DVec2::Y * self.first_row as f64;
         let high = a.max(b).max(c) - DVec2::Y * self.first_row as f64;

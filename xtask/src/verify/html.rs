@@ -16,7 +16,7 @@ use crate::table::escaped;
 use plot::Figure;
 
 /// Levels for the plots, if the study was not run as a whole.
-const FACES: usize = 1500;
+const FACES: usize = 2000;
 
 /// What is plotted: distances over the diagonal and angles in degrees.
 const FIGURES: [Figure; 2] = [

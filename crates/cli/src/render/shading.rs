@@ -18,10 +18,13 @@ pub(crate) struct Shading<'a> {
     pub(crate) scale: Option<Scale>,
 }
 
+/// A number at each point of a surface.
+type Number<'a> = Box<dyn Fn(&Hit) -> Option<f64> + Sync + 'a>;
+
 enum Kind<'a> {
     Plain(Shade<'static>),
     /// A function of the point for each file.
-    Numbers(Vec<Box<dyn Fn(&Hit) -> Option<f64> + Sync + 'a>>),
+    Numbers(Vec<Number<'a>>),
 }
 
 impl Shading<'_> {
@@ -70,9 +73,8 @@ fn curvature<'a>(sources: &'a [Source], options: &PictureOptions) -> anyhow::Res
             source.name
         );
     }
-    let of_file = |source: &'a Source| -> Box<dyn Fn(&Hit) -> Option<f64> + Sync + 'a> {
-        Box::new(|hit| source.patches.mean_curvature(hit))
-    };
+    let of_file =
+        |source: &'a Source| -> Number<'a> { Box::new(|hit| source.patches.mean_curvature(hit)) };
     let functions: Vec<_> = sources.iter().map(of_file).collect();
     let found = numbers(sources, &functions);
     let mut scale = symmetric_scale(&found).ok_or_else(|| anyhow!("no point has a curvature"))?;
@@ -92,7 +94,7 @@ fn deviation<'a>(
     options: &PictureOptions,
     field: Option<&'a dyn ImplicitSurface>,
 ) -> anyhow::Result<Shading<'a>> {
-    let mut functions: Vec<Box<dyn Fn(&Hit) -> Option<f64> + Sync + 'a>> = Vec::new();
+    let mut functions: Vec<Number<'a>> = Vec::new();
     for source in sources {
         functions.push(match (field, &source.deviation) {
             (Some(field), _) => {
@@ -120,7 +122,7 @@ fn deviation<'a>(
     let of = if field.is_some() { "at each point" } else { "largest of each patch, from the file" };
     let largest = found.last().copied().unwrap_or(0.0);
     let meaning = format!(
-        "deviation {of}, from {:.0e} to {:.0e} of the diagonal; up to {}",
+        "deviation {of}, from {:.0e} to {:.0e} of the diagonal; {} is the largest of some points",
         scale.low,
         scale.high,
         short(largest)
@@ -129,11 +131,8 @@ fn deviation<'a>(
 }
 
 /// The numbers of all files, ascending.
-fn numbers(
-    sources: &[Source],
-    functions: &[Box<dyn Fn(&Hit) -> Option<f64> + Sync + '_>],
-) -> Vec<f64> {
-    let of_file = |(source, function): (&Source, &Box<_>)| {
+fn numbers(sources: &[Source], functions: &[Number<'_>]) -> Vec<f64> {
+    let of_file = |(source, function): (&Source, &Number<'_>)| {
         let (patches, value): (&dyn Patches, Value<'_>) = (&*source.patches, &**function);
         values(patches, value)
     };
