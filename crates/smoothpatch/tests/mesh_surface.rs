@@ -25,7 +25,8 @@ fn check_smooth(field: &MeshField, surface: &G1Surface) {
     let (report, _) = report(surface, &source, &mut Silent);
     assert!(report.continuity.g1_angle_deg < 1e-9, "{:?}", report.continuity);
     assert!(report.row_residual < 1e-12, "{}", report.row_residual);
-    assert_eq!((report.deviation.folded.len(), report.deviation.failed_samples), (0, 0));
+    let failures = (report.deviation.folded.len(), report.deviation.failed_samples);
+    assert_eq!(failures, (0, 0), "folds and samples without foot");
 }
 
 /// Largest distance from the torus, over the diagonal.

@@ -93,7 +93,7 @@ fn spread(
             };
             let other = if first.0 == t { second.0 } else { first.0 };
             let agree = first.1 != second.1;
-            let wanted = turned[t] != !agree;
+            let wanted = turned[t] == agree;
             if !seen[other] {
                 seen[other] = true;
                 turned[other] = wanted;
