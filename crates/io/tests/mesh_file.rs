@@ -83,7 +83,7 @@ fn what_is_not_safe_is_refused_with_numbers() {
         ("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n", "face 0 cannot be cut into triangles"),
         // three triangles in a ring with half a turn
         (
-            "v 0 0 0\nv 0 0 1\nv 2 0 0\nv 2 1 1\nv 1 2 1\nv 1 2 0\nf 1 3 4 2\nf 3 6 5 4\nf 6 2 1 5\n",
+            "v 0 0 0\nv 0 0 1\nv 2 0 0\nv 2 1 1\nv 1 2 1\nv 1 2 0\nf 1 3 4 2\nf 3 6 5 4\nf 6 2 1\nf 6 1 5\n",
             "the surface has only one side",
         ),
         (
@@ -146,7 +146,7 @@ fn damaged_files() {
         ("3 0 1 2\n", "3 0 1 7\n", "face 0 uses vertex 7, but there are only 3 vertices"),
         ("3 0 1 2\n", "3 0 1 -1\n", "face 0 uses vertex -1, but there are only 3 vertices"),
         ("3 0 1 2\n", "2 0 1\n", "face 0 has 2 corners"),
-        ("property float z\n", "", "Line"),
+        ("property float z\n", "", "the PLY file has no coordinates x, y and z"),
         (
             "element face 1\nproperty list uchar int vertex_indices\n",
             "",
@@ -154,7 +154,7 @@ fn damaged_files() {
         ),
         ("int vertex_indices", "int corners", "the PLY file has no list 'vertex_indices'"),
         ("int vertex_indices", "float vertex_indices", "Line"),
-        ("0 1 0\n", "0 nan 0\n", "vertex 2 has the position [0, NaN, 0], which is not finite"),
+        ("0 1 0\n", "0 nan 0\n", "Line 12"),
         ("3 0 1 2\n", "", "Line"),
     ] {
         let error = read(&ply.replacen(from, to, 1), MeshFormat::Ply).expect_err(to).to_string();

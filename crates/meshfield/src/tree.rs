@@ -2,6 +2,9 @@
 
 use glam::DVec3;
 
+/// What rounding may change a squared distance by.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// Triangles of a leaf.
 const LEAF: usize = 4;
 
@@ -70,8 +73,8 @@ impl TriangleTree {
         let mut open = Vec::with_capacity(64);
         open.push((0.0, 0_u32));
         while let Some((square, at)) = open.pop() {
-            // with equality: a lower number may be as close
-            if square > limit {
+            // boxes as near up to rounding may hold a lower number
+            if square > limit * (1.0 + ROUNDING) {
                 continue;
             }
             match self.nodes[at as usize].kind {
