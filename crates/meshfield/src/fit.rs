@@ -67,7 +67,12 @@ fn fit_jet(
         let needed = coefficient_count(degree);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let wanted = (needed as f64 * settings.points_per_coefficient).ceil() as usize;
-        let Neighbours { vertices, rings, complete } = neighbours(mesh, vertex, wanted, accept);
+        let mut around = neighbours(mesh, vertex, wanted, accept);
+        if degree == 2 && !around.complete {
+            // no more rings than it takes
+            around = neighbours(mesh, vertex, needed, accept);
+        }
+        let Neighbours { vertices, rings, complete } = around;
         if vertices.len() < needed || !(complete || degree == 2) {
             return None;
         }

@@ -9,7 +9,7 @@ use crate::polynomial::MAX_DEGREE;
 pub struct JetSettings {
     /// Degree of the polynomials, 2 to 4; default 4. Lower where the neighbours do not suffice.
     pub degree: usize,
-    /// Points used, at least, for each coefficient; default 1.2.
+    /// Points used, at least, for each coefficient; default 1.25.
     pub points_per_coefficient: f64,
     /// Points count with this power of the inverse distance; default 2. Weights do not change the
     /// order of accuracy; they keep far points from spoiling near ones on coarse meshes.
@@ -32,7 +32,7 @@ impl Default for JetSettings {
     fn default() -> Self {
         Self {
             degree: 4,
-            points_per_coefficient: 1.2,
+            points_per_coefficient: 1.25,
             distance_power: 2,
             max_turning: 75_f64.to_radians(),
             max_far_turning: 50_f64.to_radians(),
