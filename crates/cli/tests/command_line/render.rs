@@ -84,8 +84,8 @@ fn cells_of_other_commands_are_drawn() {
         let said = place.succeed(&format!("render {file} -o out.png --size 80x60 --edges"));
         assert!(said.contains(contents), "{said}");
     }
-    place.succeed("render cube.vtu -o out.png --size 80x60 --shade curvature");
-    place.succeed("render curved.vtu -o out.png --size 80x60 --shade curvature");
+    place.succeed("render cube.vtu -o out.png --size 160x120 --shade curvature");
+    place.succeed("render curved.vtu -o out.png --size 160x120 --shade curvature");
     place.fails_with(
         "render flat.vtu -o bad.png --shade curvature",
         "flat cells have no curvature, and the file has no point data `mean_curvature`",
