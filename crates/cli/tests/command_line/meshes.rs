@@ -37,8 +37,10 @@ fn a_sphere_from_stl_to_step() {
 #[test]
 fn kept_vertices() {
     let place = place("torus_20x10.obj");
-    let run = place.succeed("fit torus_20x10.obj --keep-vertices -o t.vtu --report t.json");
-    has_rows(&run, &["faces 400", "input vertices 0.00e0 of the diagonal"]);
+    let run = place.run("fit torus_20x10.obj --keep-vertices -o t.vtu --report t.json");
+    // ten sections of the tube are few
+    assert!(run.code == 0 && run.stderr.starts_with("warning: normals"), "{}", run.stderr);
+    has_rows(&run.stdout, &["faces 400", "input vertices 0.00e0 of the diagonal"]);
     assert_eq!(place.json("t.json")["mesh"]["distances"]["vertices"]["max"], 0.0);
     place.succeed("check t.vtu --closed --euler 0 --max-folds 0 --max-g1-angle 1e-9 --max-gap 0");
 }
@@ -46,8 +48,9 @@ fn kept_vertices() {
 #[test]
 fn what_was_put_in_order_is_said() {
     let place = place("torus_48x24.ply");
-    let run = place.succeed("fit torus_48x24.ply --faces 200 -o t.vtu --jet-degree 3");
-    has_rows(&run, &["put in order 1152 polygons cut", "jets 1152 of degree 3"]);
+    let run = place.run("fit torus_48x24.ply --faces 200 -o t.vtu --jet-degree 3");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    has_rows(&run.stdout, &["put in order 1152 polygons cut", "jets 1152 of degree 3"]);
 }
 
 #[test]

@@ -67,7 +67,9 @@ pub fn mesh_field(
 ) -> Result<MeshField, MeshSurfaceError> {
     let sharp = sharp_edges(&mesh, crease_angle);
     let ends = |edges: &[EdgeId]| -> Vec<[usize; 2]> {
-        edges.iter().map(|&e| mesh.topology().edge_vertices(e).map(VertexId::index)).collect()
+        let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+        let ends = |&e: &EdgeId| sorted(mesh.topology().edge_vertices(e).map(VertexId::index));
+        edges.iter().map(ends).collect()
     };
     if !sharp.boundary.is_empty() {
         return Err(MeshSurfaceError::Open { edges: ends(&sharp.boundary) });
