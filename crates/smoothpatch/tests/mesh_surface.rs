@@ -60,7 +60,7 @@ fn from_1600_to(faces: usize) {
     let field = field(torus_grid([3.0, 1.0], 40, 20));
     let surface = fit(&field, MeshBase::Faces, faces);
     check_smooth(&field, &surface);
-    assert_eq!(surface.mesh.topology().face_count(), faces);
+    assert_eq!(surface.mesh.topology().face_count(), faces, "faces");
     assert!(from_torus(&surface, &torus) < 3e-4, "{}", from_torus(&surface, &torus));
 }
 
