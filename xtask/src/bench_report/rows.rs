@@ -50,7 +50,7 @@ const ROWS: [Row; 13] = [
         Unknown,
         "4200-6700 µs [TK09]",
     ),
-    row("the same, refined", "fit_base_mesh/refined/10000", Microseconds, 40.0, Unknown, ""),
+    row("the same, refined", "fit_base_mesh/refined/10000", Microseconds, 20.0, Unknown, ""),
     row("point on a grid", "septic/grid/points/153", Nanoseconds, 5.0, Operations(216.0), ""),
     row(
         "point and unit normal on a grid",
@@ -84,7 +84,7 @@ const ROWS: [Row; 13] = [
         Operations(9180.0),
         "",
     ),
-    row("a curve by SQP", "solve/torus", Microseconds, 2.2, Unknown, ""),
+    row("a curve by SQP", "solve/torus", Microseconds, 1.44, Unknown, ""),
     row(
         "projection, deccube, a sample",
         "project/shape/deccube/many",
