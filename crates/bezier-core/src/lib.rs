@@ -13,6 +13,7 @@ mod parameter_grid;
 mod patch;
 mod point_map;
 mod tetrahedron;
+mod tile;
 mod triangle;
 mod turning;
 #[cfg(feature = "simd")]

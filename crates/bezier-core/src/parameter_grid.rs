@@ -3,13 +3,10 @@
 use glam::DVec3;
 
 use crate::barycentric::Barycentric;
-use crate::bernstein::binomial;
 use crate::multi_index::MultiIndex;
-use crate::point_map::{PointMap, combine};
+use crate::point_map::PointMap;
+use crate::tile::{Subnets, TILE, Tile};
 use crate::triangle::BezierTriangle;
-
-/// Parameters that are taken together.
-const TILE: usize = 16;
 
 /// Parameters at which many patches with `P` control points are evaluated: the values of the basis
 /// are computed once.
@@ -20,8 +17,7 @@ const TILE: usize = 16;
 pub struct ParameterGrid<const P: usize> {
     parameters: Vec<Barycentric>,
     points: PointMap,
-    /// Bernstein polynomials of one degree less, tile by tile.
-    lower: Vec<f64>,
+    tiles: Vec<Tile<P>>,
 }
 
 impl<const P: usize> ParameterGrid<P> {
@@ -34,12 +30,8 @@ impl<const P: usize> ParameterGrid<P> {
             .collect();
         let value = |at: usize, rank: usize| units[rank].eval(parameters[at]);
         let points = PointMap::new(parameters.len(), P, value);
-        let mut lower = Vec::new();
-        for tile in parameters.chunks(TILE) {
-            let basis = lower_basis::<P>(tile);
-            lower.extend_from_slice(basis[..BezierTriangle::<f64, P>::LOWER].as_flattened());
-        }
-        Self { parameters, points, lower }
+        let tiles = parameters.chunks(TILE).map(Tile::new).collect();
+        Self { parameters, points, tiles }
     }
 
     /// The regular grid with so many divisions, see [`Barycentric::lattice`].
@@ -76,12 +68,10 @@ impl<const P: usize> ParameterGrid<P> {
     ) {
         let count = self.parameters.len();
         assert_eq!([points.len(), normals.len()], [count; 2], "one place for each parameter");
-        let subnets = patch.subnets();
-        let tiles = self.parameters.chunks(TILE);
-        let tables = self.lower.chunks(TILE * BezierTriangle::<f64, P>::LOWER);
+        let subnets = Subnets::of(patch);
         let places = points.chunks_mut(TILE).zip(normals.chunks_mut(TILE));
-        for ((tile, table), (points, normals)) in tiles.zip(tables).zip(places) {
-            last_steps(&subnets, tile, table, points, normals);
+        for (tile, (points, normals)) in self.tiles.iter().zip(places) {
+            subnets.points_and_area_normals(tile, points, normals);
         }
     }
 }
@@ -101,79 +91,7 @@ impl<const P: usize> BezierTriangle<DVec3, P> {
     ) {
         let count = parameters.len();
         assert_eq!([points.len(), normals.len()], [count; 2], "one place for each parameter");
-        let subnets = self.subnets();
-        let places = points.chunks_mut(TILE).zip(normals.chunks_mut(TILE));
-        for (tile, (points, normals)) in parameters.chunks(TILE).zip(places) {
-            let basis = lower_basis::<P>(tile);
-            let table = basis[..Self::LOWER].as_flattened();
-            last_steps(&subnets, tile, table, points, normals);
-        }
-    }
-
-    /// The nets of one degree less at the three corners; only the first [`LOWER`](Self::LOWER)
-    /// points count.
-    fn subnets(&self) -> [[DVec3; P]; 3] {
-        let mut subnets = [[DVec3::ZERO; P]; 3];
-        let net = self.net();
-        for (rank, m) in MultiIndex::all(Self::DEGREE - 1).enumerate() {
-            let below = rank + m.j + m.k + 1;
-            for (subnet, source) in subnets.iter_mut().zip([rank, below, below + 1]) {
-                subnet[rank] = net[source];
-            }
-        }
-        subnets
-    }
-}
-
-impl<V: crate::Coefficient, const P: usize> BezierTriangle<V, P> {
-    /// Control points of a net of one degree less.
-    const LOWER: usize = P - Self::DEGREE - 1;
-}
-
-/// The Bernstein polynomials of one degree less by rank, at up to `TILE` parameters.
-fn lower_basis<const P: usize>(tile: &[Barycentric]) -> [[f64; TILE]; P] {
-    const MOST: usize = crate::triangle::MAX_DEGREE + 1;
-    let degree = BezierTriangle::<f64, P>::DEGREE - 1;
-    let mut powers = [[[1.0; TILE]; MOST]; 3];
-    for (lane, at) in tile.iter().enumerate() {
-        for (powers, x) in powers.iter_mut().zip(at.to_array()) {
-            powers[1][lane] = x;
-        }
-    }
-    for powers in &mut powers {
-        for d in 2..=degree {
-            powers[d] = std::array::from_fn(|lane| powers[d - 1][lane] * powers[1][lane]);
-        }
-    }
-    let [pu, pv, pw] = &powers;
-    let mut basis = [[0.0; TILE]; P];
-    for (values, m) in basis.iter_mut().zip(MultiIndex::all(degree)) {
-        let count = binomial(degree, m.i) * binomial(degree - m.i, m.k);
-        let [pu, pv, pw] = [&pu[m.i], &pv[m.j], &pw[m.k]];
-        *values = std::array::from_fn(|lane| count * (pu[lane] * (pv[lane] * pw[lane])));
-    }
-    basis
-}
-
-/// The last triangle of de Casteljau's algorithm at up to `TILE` parameters, from the values of the
-/// basis, and what follows from it.
-fn last_steps<const P: usize>(
-    subnets: &[[DVec3; P]; 3],
-    tile: &[Barycentric],
-    table: &[f64],
-    points: &mut [DVec3],
-    normals: &mut [DVec3],
-) {
-    let degree = BezierTriangle::<f64, P>::DEGREE as f64;
-    let mut corners = [[DVec3::ZERO; TILE]; 3];
-    for (corner, subnet) in corners.iter_mut().zip(subnets) {
-        combine(table, TILE, &subnet[..BezierTriangle::<f64, P>::LOWER], corner);
-    }
-    let [a, b, c] = &corners;
-    for (lane, at) in tile.iter().enumerate() {
-        let (a, b, c) = (a[lane], b[lane], c[lane]);
-        points[lane] = a * at.u + b * at.v + c * at.w;
-        normals[lane] = (a - c).cross(b - c) * (degree * degree);
+        Subnets::of(self).points_and_area_normals_at(parameters, points, normals);
     }
 }
 

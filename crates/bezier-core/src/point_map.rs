@@ -65,12 +65,12 @@ impl PointMap {
 /// Writes the combinations with a row of `width` weights for each point, `width` a multiple of
 /// [`LANES`], to the places of `out`.
 #[cfg(feature = "simd")]
-pub(crate) use vector::combine;
+use vector::combine;
 
 /// Writes the combinations with a row of `width` weights for each point, `width` a multiple of
 /// [`LANES`], to the places of `out`.
 #[cfg(not(feature = "simd"))]
-pub(crate) fn combine(weights: &[f64], width: usize, points: &[DVec3], out: &mut [DVec3]) {
+fn combine(weights: &[f64], width: usize, points: &[DVec3], out: &mut [DVec3]) {
     for (block, out) in out.chunks_mut(LANES).enumerate() {
         let mut sums = [[0.0; LANES]; 3];
         for (row, point) in weights.chunks_exact(width).zip(points) {
@@ -94,12 +94,9 @@ mod vector {
     use pulp::{Arch, Simd, WithSimd};
 
     use super::LANES;
-    use crate::vector_block::VectorBlock;
+    use crate::vector_block::{MOST, VectorBlock, sums};
 
-    /// Vectors whose sums are kept at a time: with three coordinates each they fill the registers.
-    const MOST: usize = 4;
-
-    pub(crate) fn combine(weights: &[f64], width: usize, points: &[DVec3], out: &mut [DVec3]) {
+    pub(super) fn combine(weights: &[f64], width: usize, points: &[DVec3], out: &mut [DVec3]) {
         Arch::new().dispatch(Combine { weights, width, points, out });
     }
 
@@ -121,7 +118,9 @@ mod vector {
                 let vectors = (self.width - first) / S::F64_LANES;
                 let done = if vectors >= MOST {
                     self.block::<S, MOST>(simd, first)
-                } else if vectors >= 2 {
+                } else if vectors == 3 {
+                    self.block::<S, 3>(simd, first)
+                } else if vectors == 2 {
                     self.block::<S, 2>(simd, first)
                 } else {
                     self.block::<S, 1>(simd, first)
@@ -136,16 +135,8 @@ mod vector {
         #[inline(always)]
         fn block<S: Simd, const K: usize>(&mut self, simd: S, first: usize) -> usize {
             let count = K * S::F64_LANES;
-            let mut sums = [[simd.splat_f64s(0.0); 3]; K];
-            for (row, point) in self.weights.chunks_exact(self.width).zip(self.points) {
-                let (row, _) = S::as_simd_f64s(&row[first..first + count]);
-                let point = point.to_array().map(|c| simd.splat_f64s(c));
-                for (sums, &weight) in sums.iter_mut().zip(row) {
-                    for (sum, c) in sums.iter_mut().zip(point) {
-                        *sum = simd.mul_add_e_f64s(weight, c, *sum);
-                    }
-                }
-            }
+            let rows = self.weights.chunks_exact(self.width).map(|row| &row[first..]);
+            let sums = sums::<S, K>(simd, rows, self.points);
             for (k, sums) in sums.into_iter().enumerate() {
                 let at = (first + k * S::F64_LANES).min(self.out.len());
                 VectorBlock::of::<S>(sums).write(&mut self.out[at..]);
