@@ -49,16 +49,6 @@ macro_rules! field_from_expression {
                 let jet = $crate::Expression::eval(self, variables);
                 (jet.value, $crate::glam::DVec3::from_array(jet.gradient))
             }
-            fn values(&self, points: &[$crate::glam::DVec3], out: &mut [f64]) {
-                $crate::batch::values(self, points, out);
-            }
-            fn value_gradients(
-                &self,
-                points: &[$crate::glam::DVec3],
-                out: &mut [(f64, $crate::glam::DVec3)],
-            ) {
-                $crate::batch::value_gradients(self, points, out);
-            }
         }
 
         impl $crate::TwiceDifferentiable for $shape {

@@ -1,8 +1,6 @@
 #![doc = include_str!("../README.md")]
 
 mod aabb;
-#[doc(hidden)]
-pub mod batch;
 mod closure;
 mod curvature;
 mod expression;
