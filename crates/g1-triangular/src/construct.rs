@@ -106,22 +106,7 @@ pub fn join_reusing(
     assert_eq!(plan.rows.len(), topology.edge_count(), "one choice per edge");
     assert_eq!(plan.inner_points.len(), topology.face_count(), "one choice per face");
 
-    let origin = origin_weights(mesh, jets, network)?;
-    let twist = |h: HalfedgeId| nets[h.face()][MultiIndex::along(local_edge(h), 5, 1, 1)];
-    let spokes = solve_vertices(mesh, jets, network, &origin, &twist)?;
-    nets.change(|face, net| set_twists(net, face, &spokes));
-    let edges = EdgeMap::try_from_fn(topology.edge_count(), |edge| {
-        if let Some(rows) = earlier.rows(edge) {
-            return Ok(rows);
-        }
-        let system = EdgeSystem::new(topology, network, &nets, &origin, &spokes, edge)?;
-        let rows = match plan.rows[edge] {
-            Rows::Nearest => None,
-            Rows::TangentPlanes => tangent_planes::solve(&system, target),
-        };
-        let vertex = topology.origin(topology.canonical(edge)).index();
-        rows.or_else(|| system.nearest()).ok_or(JoinError::DegenerateFan { vertex })
-    })?;
+    let edges = edge_rows(mesh, jets, network, &mut nets, target, plan, earlier)?;
     nets.change(|face, net| {
         if let Some(known) = earlier.patch(face) {
             *net = known;
@@ -135,6 +120,36 @@ pub fn join_reusing(
         }
     });
     Ok(SmoothPatches { nets, weights: edges.map(|_, edge| edge.weights) })
+}
+
+/// Makes the twist points of the patches final, and finds the rows along all edges.
+#[allow(clippy::too_many_arguments, reason = "those of join_reusing")]
+fn edge_rows(
+    mesh: &TriMesh,
+    jets: &VertexMap<SurfaceJet>,
+    network: &CurveNetwork,
+    nets: &mut FaceMap<SepticTriangle>,
+    target: &dyn SurfaceTarget,
+    plan: &Plan,
+    earlier: &dyn Earlier,
+) -> Result<EdgeMap<EdgeRows>, JoinError> {
+    let topology = mesh.topology();
+    let origin = origin_weights(mesh, jets, network)?;
+    let twist = |h: HalfedgeId| nets[h.face()][MultiIndex::along(local_edge(h), 5, 1, 1)];
+    let spokes = solve_vertices(mesh, jets, network, &origin, &twist)?;
+    nets.change(|face, net| set_twists(net, face, &spokes));
+    EdgeMap::try_from_fn(topology.edge_count(), |edge| {
+        if let Some(rows) = earlier.rows(edge) {
+            return Ok(rows);
+        }
+        let system = EdgeSystem::new(topology, network, nets, &origin, &spokes, edge)?;
+        let rows = match plan.rows[edge] {
+            Rows::Nearest => None,
+            Rows::TangentPlanes => tangent_planes::solve(&system, target),
+        };
+        let vertex = topology.origin(topology.canonical(edge)).index();
+        rows.or_else(|| system.nearest()).ok_or(JoinError::DegenerateFan { vertex })
+    })
 }
 
 fn set_twists(net: &mut SepticTriangle, face: FaceId, spokes: &HalfedgeMap<SpokeSolution>) {

@@ -10,17 +10,13 @@ use bezier_core::{QuarticCurve, SepticCurve};
 #[derive(Clone, Debug)]
 pub struct CurveNetwork {
     curves: EdgeMap<QuarticCurve>,
-    /// Elevated once, before orienting: reversing then only permutes, so that both faces of an
-    /// edge hold the same bits.
-    elevated: EdgeMap<SepticCurve>,
 }
 
 impl CurveNetwork {
     /// A network from one curve per edge.
     #[must_use]
-    pub fn new(curves: EdgeMap<QuarticCurve>) -> Self {
-        let elevated = curves.map(|_, curve| curve.elevate_to());
-        Self { curves, elevated }
+    pub const fn new(curves: EdgeMap<QuarticCurve>) -> Self {
+        Self { curves }
     }
 
     /// The curves in canonical direction.
@@ -40,10 +36,9 @@ impl CurveNetwork {
     #[must_use]
     pub fn elevated_along(&self, topology: &Topology, h: HalfedgeId) -> SepticCurve {
         let edge = topology.edge(h);
-        if topology.canonical(edge) == h {
-            self.elevated[edge]
-        } else {
-            self.elevated[edge].reversed()
-        }
+        // elevated before it is turned: reversing only permutes, so that both faces of an edge hold
+        // the same bits
+        let elevated = self.curves[edge].elevate_to();
+        if topology.canonical(edge) == h { elevated } else { elevated.reversed() }
     }
 }
