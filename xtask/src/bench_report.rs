@@ -4,7 +4,9 @@
 mod compare;
 mod growth;
 mod measured;
+mod peers;
 mod rows;
+mod scenes;
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -17,6 +19,7 @@ use growth::Growth;
 pub(crate) use growth::OnceOptions;
 use measured::Measurements;
 use rows::Row;
+use scenes::Scene;
 
 use crate::root;
 
@@ -34,6 +37,9 @@ pub(crate) struct Options {
     /// An earlier report: says what got slower or faster by more than the noise.
     #[arg(long, value_name = "FILE")]
     against: Option<PathBuf>,
+    /// Also measures other programs at equal accuracy, installed below the target folder; minutes.
+    #[arg(long)]
+    peers: bool,
 }
 
 /// What is kept.
@@ -41,6 +47,8 @@ pub(crate) struct Options {
 struct Report {
     measurements: Measurements,
     growth: Growth,
+    #[serde(default)]
+    scenes: Vec<Scene>,
 }
 
 /// The benches of the table: package, bench, filter, features.
@@ -64,9 +72,14 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
     let measurements = Measurements::read(&target.join("criterion"))?;
     let growth = Growth::measure(options.faces)?;
+    let scenes = scenes::measure()?;
     println!("{}", Row::table(&measurements));
     println!("{}", growth.table());
-    let report = Report { measurements, growth };
+    println!("{}", scenes::table(&scenes));
+    if options.peers {
+        println!("{}", peers::run(&target.join("peers"))?);
+    }
+    let report = Report { measurements, growth, scenes };
     let path = options.json.clone().unwrap_or_else(|| target.join("bench-report.json"));
     std::fs::write(&path, serde_json::to_string_pretty(&report)?)
         .with_context(|| path.display().to_string())?;

@@ -3,7 +3,7 @@
 mod fitted;
 mod meshes;
 mod nagata;
-mod python;
+pub(crate) mod python;
 mod samples;
 
 use std::path::{Path, PathBuf};

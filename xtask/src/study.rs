@@ -3,7 +3,7 @@
 mod checks;
 mod cost;
 mod families;
-mod interpolants;
+pub(crate) mod interpolants;
 mod levels;
 mod lobatto;
 mod present;

@@ -16,7 +16,7 @@ const NO_NETWORK: [&str; 4] = [
 ];
 
 /// An environment in which everything is installed.
-pub(super) struct Environment {
+pub(crate) struct Environment {
     python: PathBuf,
 }
 
@@ -24,7 +24,7 @@ impl Environment {
     /// Makes the environment, or takes the one that is there if it was made from the same list.
     ///
     /// The inner error says what this machine lacks.
-    pub(super) fn make(
+    pub(crate) fn make(
         python: &Path,
         folder: &Path,
         requirements: &Path,
@@ -57,6 +57,11 @@ impl Environment {
         }
         fs::write(&stamp, wanted)?;
         Ok(Ok(Self { python: inside }))
+    }
+
+    /// Its Python.
+    pub(crate) fn program(&self) -> &Path {
+        &self.python
     }
 
     /// Runs all checks at the same time and prints what they say, one after the other.

@@ -10,7 +10,7 @@ use super::lobatto;
 
 /// The continuous piecewise polynomial with `P` nodes per face, projected onto the target from
 /// the flat faces; as patches of degree 7, so that it is measured in the same way.
-pub(super) fn interpolate<const P: usize>(
+pub(crate) fn interpolate<const P: usize>(
     mesh: &TriMesh,
     target: &dyn SurfaceTarget,
 ) -> Result<FaceMap<SepticTriangle>> {
