@@ -2,6 +2,7 @@
 //! targets, how times and memory grow with the number of faces, and what changed since another report.
 
 mod compare;
+mod decimation;
 mod growth;
 mod measured;
 mod peers;
@@ -15,6 +16,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
+use decimation::Decimation;
 use growth::Growth;
 pub(crate) use growth::OnceOptions;
 use measured::Measurements;
@@ -49,6 +51,8 @@ struct Report {
     growth: Growth,
     #[serde(default)]
     scenes: Vec<Scene>,
+    #[serde(default)]
+    decimation: Option<Decimation>,
 }
 
 /// The benches of the table: package, bench, filter, features.
@@ -73,13 +77,15 @@ pub(crate) fn run(options: &Options) -> Result<bool> {
     let measurements = Measurements::read(&target.join("criterion"))?;
     let growth = Growth::measure(options.faces)?;
     let scenes = scenes::measure()?;
+    let decimation = decimation::measure()?;
     println!("{}", Row::table(&measurements));
     println!("{}", growth.table());
     println!("{}", scenes::table(&scenes));
+    println!("{}", decimation.line());
     if options.peers {
         println!("{}", peers::run(&target.join("peers"))?);
     }
-    let report = Report { measurements, growth, scenes };
+    let report = Report { measurements, growth, scenes, decimation: Some(decimation) };
     let path = options.json.clone().unwrap_or_else(|| target.join("bench-report.json"));
     std::fs::write(&path, serde_json::to_string_pretty(&report)?)
         .with_context(|| path.display().to_string())?;
