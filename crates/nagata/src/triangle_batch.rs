@@ -10,7 +10,7 @@ use crate::triangle::NagataTriangle;
 use crate::widest::{Loops, widest};
 
 /// Triangles that are computed together.
-const LANES: usize = 32;
+const LANES: usize = 16;
 
 impl NagataTriangle {
     /// Fills `patches` with the patches of which `given` returns corners and unit normals, by position in
@@ -93,9 +93,8 @@ impl<G: Fn(usize) -> [[DVec3; 3]; 2]> Loops for Filling<'_, G> {
                 curvature_parameters(&chords[i], ends, &limits, &mut values[i], &mut flags);
             }
             for (lane, patch) in patches.iter_mut().enumerate() {
-                for i in 0..3 {
-                    patch.curvature[i] = values[i].get(lane);
-                }
+                let [a, b, c] = &values;
+                patch.curvature = [a.get(lane), b.get(lane), c.get(lane)];
             }
             if flags.any_refused() {
                 let given = |lane| (self.given)(part * LANES + lane);

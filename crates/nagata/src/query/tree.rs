@@ -96,14 +96,11 @@ impl Tree {
         mut visit: impl FnMut(usize, &Reach),
     ) {
         let squared = |distance: f64| (distance / self.unit) * (distance / self.unit);
+        let mut one_leaf = [f64::NAN; WIDTH];
+        one_leaf[0] = 0.0;
         let keys = |node: &Node| {
-            let mut keys = [f64::NAN; WIDTH];
-            if node.has_items() {
-                // as one leaf
-                keys[0] = 0.0;
-                return keys;
-            }
-            node.squared_distances(p)
+            let has_items = node.first & LAST != 0;
+            if has_items { one_leaf } else { node.squared_distances(p) }
         };
         let visit = |leaf: usize| visit(leaf * WIDTH, &self.leaves[leaf].reach(p, 1.0 / self.unit));
         let fetch = |at: u32| {
@@ -193,11 +190,6 @@ impl Node {
     fn fetch(&self) {
         let boxes = self.low.iter().chain(&self.high).map(|all| all[0]);
         black_box((boxes.sum::<f32>(), self.centre.x, self.first));
-    }
-
-    /// Whether the children are items.
-    fn has_items(&self) -> bool {
-        self.first & LAST != 0
     }
 
     /// Components along the axes.
