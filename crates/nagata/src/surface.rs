@@ -168,16 +168,6 @@ impl NagataSurface {
         }
     }
 
-    /// The patch of a triangle of a C0 surface, the same as from [`patch`](Self::patch) but smaller to hand over;
-    /// `None` for quadrilaterals and G1 surfaces.
-    #[inline]
-    #[must_use]
-    pub fn c0_triangle(&self, face: FaceId) -> Option<NagataTriangle> {
-        let &[a, b, c] = self.mesh.corners(face) else { return None };
-        let corners = [a, b, c].map(|v| self.mesh.position(v));
-        (self.settings.continuity == Continuity::Position).then(|| self.quadratic(face, corners))
-    }
-
     /// The quadratic patch of a triangle.
     #[inline]
     pub(crate) fn quadratic(&self, face: FaceId, corners: [DVec3; 3]) -> NagataTriangle {
