@@ -63,7 +63,7 @@ const BENCHES: [[&str; 4]; 8] = [
     ["implicit", "project", "project/shape", ""],
     ["basemesh", "polygonize", "deccube", ""],
     ["basemesh", "simplify", "simplify", ""],
-    ["nagata", "nagata", "nothing shared", ""],
+    ["nagata", "nagata", "nothing shared", "simd"],
     ["smoothpatch", "fit", "", ""],
 ];
 

@@ -1,5 +1,6 @@
-//! Building and evaluating surfaces of a million triangles, on one thread. Times are per iteration;
-//! the throughput is in triangles, or in points where points are evaluated.
+//! Building and evaluating surfaces of a million triangles, on one thread; figures of the README are with the
+//! feature `simd`. Times are per iteration; the throughput is in triangles, or in points where points are
+//! evaluated. Of some results the time to write them is measured, too.
 #![allow(clippy::unwrap_used, reason = "benches fail like tests")]
 
 use std::f64::consts::TAU;
@@ -66,6 +67,10 @@ fn build(c: &mut Criterion) {
             );
         });
     }
+    group.bench_function("fresh memory for the curves written only", |b| {
+        let curves = mesh.edge_count();
+        b.iter_with_large_drop(|| vec![black_box(DVec3::ONE); curves]);
+    });
     group.bench_function("C0 surface, in the memory of the last one", |b| {
         let mut surface = c0.clone();
         b.iter_batched(
@@ -86,34 +91,52 @@ fn build(c: &mut Criterion) {
     }
 }
 
-/// Patches from three points and three normals each, nothing shared.
+/// Patches from the positions and normals of an indexed mesh, no table of edges; and, for comparison, the time
+/// that writing results of this size takes.
 fn unshared(c: &mut Criterion) {
+    /// Patches that are kept while their points are computed.
+    const TOGETHER: usize = 64;
     let (positions, normals, faces) = torus();
     let settings = Settings::position().edges;
-    let input: Vec<_> =
-        faces.iter().map(|f| (f.map(|v| positions[v]), f.map(|v| normals[v]))).collect();
-    let patch = |(corners, normals): &([DVec3; 3], [DVec3; 3])| {
-        NagataTriangle::from_normals(*corners, *normals, &settings)
+    let given = |k: usize| {
+        let [a, b, c] = faces[k];
+        [[positions[a], positions[b], positions[c]], [normals[a], normals[b], normals[c]]]
     };
+    let zero = NagataTriangle { corners: [DVec3::ZERO; 3], curvature: [DVec3::ZERO; 3] };
     let mut group = c.benchmark_group("C0 patches, nothing shared");
     group.sample_size(10).throughput(Throughput::Elements(TRIANGLES));
-    let mut patches: Vec<NagataTriangle> = input.iter().map(patch).collect();
+    let mut patches = vec![zero; faces.len()];
     group.bench_function("built", |b| {
         b.iter(|| {
-            patches.clear();
-            patches.extend(input.iter().map(patch));
+            NagataTriangle::fill_from_normals(&mut patches, &settings, given);
             black_box(&patches);
         });
     });
-    let mut points = vec![DVec3::ZERO; 4 * 15];
+    group.bench_function("patches written only", |b| b.iter(|| patches.fill(black_box(zero))));
+    let mut together = vec![zero; TOGETHER];
+    let mut sampled = |part: usize, points: &mut [DVec3]| {
+        let patches = &mut together[..points.len() / 15];
+        NagataTriangle::fill_from_normals(patches, &settings, |k| given(part * TOGETHER + k));
+        NagataTriangle::sample_all(patches, 4, points);
+    };
+    let mut points = vec![DVec3::ZERO; 15 * TOGETHER];
     group.bench_function("built, and 15 points each", |b| {
         b.iter(|| {
-            for four in input.as_chunks::<4>().0 {
-                NagataTriangle::sample_all(&four.each_ref().map(patch), 4, &mut points);
+            for (part, faces) in faces.chunks(TOGETHER).enumerate() {
+                sampled(part, &mut points[..15 * faces.len()]);
                 black_box(&points);
             }
         });
     });
+    let mut all = vec![DVec3::ZERO; 15 * faces.len()];
+    group.bench_function("built, and 15 points each to memory", |b| {
+        b.iter(|| {
+            let parts = all.chunks_mut(15 * TOGETHER).enumerate();
+            parts.for_each(|(part, points)| sampled(part, points));
+            black_box(&all);
+        });
+    });
+    group.bench_function("15 points written only", |b| b.iter(|| all.fill(black_box(DVec3::ONE))));
 }
 
 fn evaluate(c: &mut Criterion) {

@@ -1,15 +1,18 @@
-//! The curves of all edges, several at a time.
+//! The curves of all edges, many at a time.
 
-use basemesh::{EdgeId, EdgeMap};
+use basemesh::{EdgeId, EdgeMap, VertexId};
 use glam::DVec3;
 
 use crate::corner_normals::CornerNormals;
-use crate::curvature_parameter::{EdgeStatus, Limits, bow_and_shear};
+use crate::curvature_parameter::{EdgeStatus, Limits};
+use crate::lanes::{Flags, Lanes, curvature_parameters, refuse_misfits};
 use crate::polygon_mesh::PolygonMesh;
 use crate::settings::Settings;
+use crate::status_byte::StatusByte;
+use crate::widest::{Loops, widest};
 
 /// Edges that are computed and stored together.
-const LANES: usize = 8;
+const LANES: usize = 64;
 
 /// Curvature parameter and status of each edge, in blocks of neighbours.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,18 +24,28 @@ impl Default for EdgeBlocks {
     }
 }
 
+/// The last lanes of the last block have zeros.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Block {
     curvature: [DVec3; LANES],
-    status: [EdgeStatus; LANES],
+    status: [StatusByte; LANES],
 }
 
-/// Vectors of each lane, component by component.
-type Lanes = [[f64; LANES]; 3];
+impl Block {
+    const EMPTY: Self =
+        Self { curvature: [DVec3::ZERO; LANES], status: [StatusByte::STRAIGHT; LANES] };
+}
 
-/// When a curvature parameter is taken as it is.
-#[derive(Clone, Copy, Debug)]
-struct Test {
+/// What the block of the edges from `first` on is made of.
+struct Filling<'a, N, S> {
+    block: &'a mut Block,
+    first: usize,
+    ends: &'a [[VertexId; 2]],
+    positions: &'a [DVec3],
+    /// The normals at both ends of an edge; `None` if there is not one each.
+    normals: &'a N,
+    /// The road for all edges.
+    solve: &'a S,
     limits: Limits,
     /// Largest misfit, in chords; `None` if that does not matter.
     max_misfit: Option<f64>,
@@ -40,7 +53,7 @@ struct Test {
 
 impl EdgeBlocks {
     /// Those of all edges, in the memory of `old` if that has the size. What `solve` returns is asked for only
-    /// for edges with more or fewer normals than two, or those that fail the test; for the others it would be
+    /// for edges with more or fewer normals than two, or those that fail a test; for the others it would be
     /// the same, bit for bit.
     pub(crate) fn new(
         mesh: &PolygonMesh,
@@ -49,30 +62,41 @@ impl EdgeBlocks {
         old: Option<Self>,
         solve: impl Fn(EdgeId) -> (DVec3, EdgeStatus) + Sync,
     ) -> Self {
-        let limits = Limits::new(&settings.edges);
-        let test = Test { limits, max_misfit: settings.max_misfit() };
         if let Some(of_vertex) = normals.of_vertices() {
-            let of_edge = |edge| Some(mesh.edge_vertices(edge).map(|v| of_vertex[v.index()]));
-            Self::filled(mesh, old, |first| test.block(mesh, first, of_edge, &solve))
+            let at_ends = |_, ends: [VertexId; 2]| Some(ends.map(|v| of_vertex[v.index()]));
+            Self::filled(mesh, settings, old, &at_ends, &solve)
         } else {
-            let of_edge = |edge| normals.one_each(mesh, edge);
-            Self::filled(mesh, old, |first| test.block(mesh, first, of_edge, &solve))
+            let at_ends = |edge, _| normals.one_each(mesh, edge);
+            Self::filled(mesh, settings, old, &at_ends, &solve)
         }
     }
 
-    #[inline(always)]
     fn filled(
         mesh: &PolygonMesh,
+        settings: &Settings,
         old: Option<Self>,
-        block: impl Fn(usize) -> Block + Sync,
+        normals: &(impl Fn(EdgeId, [VertexId; 2]) -> Option<[DVec3; 2]> + Sync),
+        solve: &(impl Fn(EdgeId) -> (DVec3, EdgeStatus) + Sync),
     ) -> Self {
-        let count = mesh.edge_count().div_ceil(LANES);
+        let limits = Limits::new(&settings.edges);
+        let (ends, positions) = (mesh.all_edge_vertices(), mesh.positions().as_slice());
+        let fill = |id: EdgeId, block: &mut Block| {
+            let first = id.index() * LANES;
+            let ends = &ends[first..ends.len().min(first + LANES)];
+            let max_misfit = settings.max_misfit();
+            widest(Filling { block, first, ends, positions, normals, solve, limits, max_misfit });
+        };
+        let count = ends.len().div_ceil(LANES);
         match old {
             Some(Self(mut blocks)) if blocks.len() == count => {
-                blocks.change(|id, value| *value = block(id.index() * LANES));
+                blocks.change(fill);
                 Self(blocks)
             }
-            _ => Self(EdgeMap::from_fn(count, |id| block(id.index() * LANES))),
+            _ => Self(EdgeMap::from_fn(count, |id| {
+                let mut block = Block::EMPTY;
+                fill(id, &mut block);
+                block
+            })),
         }
     }
 
@@ -85,7 +109,7 @@ impl EdgeBlocks {
     #[inline]
     pub(crate) fn status(&self, edge: EdgeId) -> EdgeStatus {
         let (block, lane) = at(edge);
-        self.0[block].status[lane]
+        self.0[block].status[lane].get()
     }
 
     /// Bytes on the heap.
@@ -99,78 +123,50 @@ fn at(edge: EdgeId) -> (EdgeId, usize) {
     (EdgeId::new(edge.index() / LANES), edge.index() % LANES)
 }
 
-/// Chord and normals of an edge; zeros if there is not one normal at each end, which fails the test.
-#[inline(always)]
-fn edge_data(
-    mesh: &PolygonMesh,
-    edge: EdgeId,
-    normals: impl Fn(EdgeId) -> Option<[DVec3; 2]>,
-) -> [DVec3; 3] {
-    let [start, end] = mesh.edge_vertices(edge).map(|v| mesh.position(v));
-    let [n_start, n_end] = normals(edge).unwrap_or_default();
-    [end - start, n_start, n_end]
-}
+impl<N, S> Loops for Filling<'_, N, S>
+where
+    N: Fn(EdgeId, [VertexId; 2]) -> Option<[DVec3; 2]>,
+    S: Fn(EdgeId) -> (DVec3, EdgeStatus),
+{
+    type Output = ();
 
-#[inline(always)]
-fn set(lanes: &mut Lanes, lane: usize, v: DVec3) {
-    (lanes[0][lane], lanes[1][lane], lanes[2][lane]) = (v.x, v.y, v.z);
-}
-
-#[inline(always)]
-fn get(lanes: &Lanes, lane: usize) -> DVec3 {
-    DVec3::new(lanes[0][lane], lanes[1][lane], lanes[2][lane])
-}
-
-impl Test {
-    /// The block that starts with the edge `first`.
     #[inline(always)]
-    fn block(
-        &self,
-        mesh: &PolygonMesh,
-        first: usize,
-        normals: impl Fn(EdgeId) -> Option<[DVec3; 2]>,
-        solve: impl Fn(EdgeId) -> (DVec3, EdgeStatus),
-    ) -> Block {
-        // the last lanes of the last block repeat the last edge
-        let last = mesh.edge_count() - 1;
-        let edge = |lane: usize| EdgeId::new((first + lane).min(last));
-        let mut input = [[[0.0; LANES]; 3]; 3];
-        for lane in 0..LANES {
-            let data = edge_data(mesh, edge(lane), &normals);
-            for (lanes, v) in input.iter_mut().zip(data) {
-                set(lanes, lane, v);
+    fn run(self) {
+        let (mut chords, mut starts, mut ends, mut values) =
+            (Lanes::<LANES>::ZERO, Lanes::ZERO, Lanes::ZERO, Lanes::ZERO);
+        for (lane, vertices) in self.ends.iter().enumerate() {
+            let [start, end] = vertices.map(|v| self.positions[v.index()]);
+            // zeros are refused
+            let normals = (self.normals)(self.edge(lane), *vertices).unwrap_or_default();
+            chords.set(lane, end - start);
+            starts.set(lane, normals[0]);
+            ends.set(lane, normals[1]);
+        }
+        let normals = [&starts, &ends];
+        let mut flags = Flags::NONE;
+        curvature_parameters(&chords, normals, &self.limits, &mut values, &mut flags);
+        if let Some(most) = self.max_misfit {
+            refuse_misfits(&mut flags, &chords, normals, &values, most);
+        }
+        for (lane, value) in self.block.curvature[..self.ends.len()].iter_mut().enumerate() {
+            *value = values.get(lane);
+        }
+        for (lane, status) in self.block.status[..self.ends.len()].iter_mut().enumerate() {
+            *status = StatusByte::quadratic(flags.full_rank(lane));
+        }
+        if flags.any_refused() {
+            for lane in (0..self.ends.len()).filter(|lane| flags.refused(*lane)) {
+                let (value, status) = (self.solve)(self.edge(lane));
+                self.block.curvature[lane] = value;
+                self.block.status[lane] = StatusByte::new(status);
             }
         }
-        let (mut block, passed) = self.direct(&input);
-        if passed != [true; LANES] {
-            for lane in (0..LANES).filter(|lane| !passed[*lane]) {
-                (block.curvature[lane], block.status[lane]) = solve(edge(lane));
-            }
-        }
-        block
     }
+}
 
-    /// The block, and the lanes for which it can be used.
+impl<N, S> Filling<'_, N, S> {
     #[inline(always)]
-    fn direct(&self, [chords, starts, ends]: &[Lanes; 3]) -> (Block, [bool; LANES]) {
-        let mut value = [[0.0; LANES]; 3];
-        let (mut passed, mut full_rank) = ([false; LANES], [false; LANES]);
-        for lane in 0..LANES {
-            let (chord, start, end) = (get(chords, lane), get(starts, lane), get(ends, lane));
-            let found = bow_and_shear(chord, [start, end], &self.limits);
-            let c = found.value;
-            let missed = self.max_misfit.is_some_and(|most| {
-                let most = most * chord.length();
-                (start.dot(chord - c).abs() > most) | (end.dot(chord + c).abs() > most)
-            });
-            set(&mut value, lane, c);
-            passed[lane] = found.accepted & !missed;
-            full_rank[lane] = found.full_rank;
-        }
-        let block = Block {
-            curvature: std::array::from_fn(|lane| get(&value, lane)),
-            status: full_rank.map(EdgeStatus::quadratic),
-        };
-        (block, passed)
+    fn edge(&self, lane: usize) -> EdgeId {
+        EdgeId::new(self.first + lane)
     }
 }

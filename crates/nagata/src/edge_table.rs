@@ -78,6 +78,11 @@ impl EdgeTable {
         self.ends[edge]
     }
 
+    /// The same of all edges.
+    pub(crate) fn all_ends(&self) -> &[[VertexId; 2]] {
+        self.ends.as_slice()
+    }
+
     /// Numbers of the sides at an edge, ascending.
     #[inline]
     pub(crate) fn sides(&self, edge: EdgeId) -> &[u32] {

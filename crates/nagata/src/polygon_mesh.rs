@@ -157,6 +157,11 @@ impl PolygonMesh {
         self.edges.ends(edge)
     }
 
+    /// The same of all edges.
+    pub(crate) fn all_edge_vertices(&self) -> &[[VertexId; 2]] {
+        self.edges.all_ends()
+    }
+
     /// Whether a side runs from the lower to the higher vertex id.
     #[inline]
     #[must_use]

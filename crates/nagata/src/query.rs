@@ -8,6 +8,7 @@
 mod bounds;
 mod closest;
 mod convex;
+mod leaf;
 mod piece;
 mod ray;
 mod side;

@@ -4,7 +4,7 @@ use bezier_core::{Barycentric, Corner, LocalEdge, ParametricPatch, PatchJet, Qua
 use glam::DVec3;
 
 use crate::curvature_parameter::one_each;
-use crate::sample::{Row, fill_rows, lattice_size};
+use crate::sample::{fill_rows, lattice_size};
 use crate::settings::EdgeSettings;
 use crate::unit::{cross_direction, unit};
 
@@ -141,39 +141,6 @@ impl NagataTriangle {
     pub fn sample(&self, divisions: usize, points: &mut [DVec3]) {
         assert_eq!(points.len(), lattice_size(divisions), "one point for each lattice point");
         fill_rows([points], divisions, |row| row + 1, |eta| [self.row(eta)]);
-    }
-
-    /// Points of several patches, one patch after the other: the same bits as from
-    /// [`sample`](Self::sample), faster.
-    ///
-    /// # Panics
-    ///
-    /// If `divisions` is zero or `points` has not that length times the number of patches.
-    pub fn sample_all(patches: &[Self], divisions: usize, points: &mut [DVec3]) {
-        let size = lattice_size(divisions);
-        assert_eq!(points.len(), patches.len() * size, "one point for each lattice point");
-        let (fours, rest) = patches.as_chunks::<4>();
-        let (points, points_of_rest) = points.split_at_mut(4 * fours.len() * size);
-        for (four, points) in fours.iter().zip(points.chunks_exact_mut(4 * size)) {
-            let (a, points) = points.split_at_mut(size);
-            let (b, points) = points.split_at_mut(size);
-            let (c, d) = points.split_at_mut(size);
-            fill_rows(
-                [a, b, c, d],
-                divisions,
-                |row| row + 1,
-                |eta| four.each_ref().map(|patch| patch.row(eta)),
-            );
-        }
-        for (patch, points) in rest.iter().zip(points_of_rest.chunks_exact_mut(size)) {
-            patch.sample(divisions, points);
-        }
-    }
-
-    #[inline(always)]
-    fn row(&self, eta: f64) -> Row {
-        let [c00, c10, c01, c11, c20, c02] = self.monomials();
-        Row { constant: c00 + (c10 + c20 * eta) * eta, linear: c01 + c11 * eta, quadratic: c02 }
     }
 }
 

@@ -210,6 +210,53 @@ fn batches_agree_with_single_points() {
     }
 }
 
+/// Triangles together have the bits of each alone: numbers that blocks do not divide, lowered edges, parallel
+/// and opposite normals, a side without length.
+#[test]
+fn triangles_made_together_have_the_same_bits() {
+    let surface = spot(Settings::position());
+    let mesh = surface.mesh();
+    let normals = CornerNormals::estimated(mesh, std::f64::consts::PI);
+    let mut given: Vec<[[DVec3; 3]; 2]> = mesh
+        .faces()
+        .take(97)
+        .map(|face| {
+            let corners = mesh.corners(face);
+            let at = |c: usize| normals.at(mesh, face, c).unwrap();
+            [[0, 1, 2].map(|c| mesh.position(corners[c])), [0, 1, 2].map(at)]
+        })
+        .collect();
+    let [corners, [n, ..]] = given[3];
+    given[3] = [corners, [n; 3]];
+    given[40] = [corners, [n, -n, n]];
+    given[64] = [[corners[0], corners[0], corners[2]], given[64][1]];
+    let bits = |patches: &[NagataTriangle]| -> Vec<[[u64; 3]; 6]> {
+        let vectors = |patch: &NagataTriangle| {
+            let ([a, b, c], [u, v, w]) = (patch.corners, patch.curvature);
+            [a, b, c, u, v, w].map(|v| v.to_array().map(f64::to_bits))
+        };
+        patches.iter().map(vectors).collect()
+    };
+    let mut lowered = 0;
+    for settings in [EdgeSettings::default(), EdgeSettings::PUBLISHED] {
+        for count in [0, 1, 31, 32, 33, 97] {
+            let alone: Vec<NagataTriangle> = given[..count]
+                .iter()
+                .map(|[corners, normals]| {
+                    NagataTriangle::from_normals(*corners, *normals, &settings)
+                })
+                .collect();
+            let zero = NagataTriangle { corners: [DVec3::ZERO; 3], curvature: [DVec3::ZERO; 3] };
+            let mut together = vec![zero; count];
+            NagataTriangle::fill_from_normals(&mut together, &settings, |k| given[k]);
+            assert_eq!(bits(&together), bits(&alone), "{count} with {settings:?}");
+            let zero = |patch: &&NagataTriangle| patch.curvature.contains(&DVec3::ZERO);
+            lowered += together.iter().filter(zero).count();
+        }
+    }
+    assert!(lowered > 0, "a side without length has no curvature");
+}
+
 /// Each edge computed alone, one after the other, has the bits of the surface, which is built in parallel
 /// with the feature `rayon`.
 #[test]

@@ -103,3 +103,19 @@ fn boxes_contain_their_patches() {
         }
     }
 }
+
+/// Far away all distances are the same but for rounding, and farther squares overflow.
+#[test]
+fn closest_points_are_found_from_far_away() {
+    for settings in [Settings::position(), Settings::tangent_plane()] {
+        let surface = torus_surface(true, settings);
+        let queries = SurfaceQueries::new(&surface);
+        for distance in [1e3, 1e6, 1e9, 1e12, 1e15, 1e100, 1e150, 1e300] {
+            let p = DVec3::new(0.3, 0.5, 0.7) * distance;
+            let found = queries.closest(p).unwrap();
+            assert!(found.at.point.length() < 3.1 && !found.signed_distance.is_nan(), "{found:?}");
+            let error = (found.signed_distance.abs() / p.length() - 1.0).abs();
+            assert!(error < 4.0 / distance + 1e-15 || distance > 1e150, "{distance}: {found:?}");
+        }
+    }
+}

@@ -20,12 +20,14 @@ pub(super) fn closest(
     limit: f64,
     open: &mut Vec<(f64, Piece)>,
 ) -> Option<([f64; 2], f64)> {
-    let slack = RESOLUTION * flat.size();
+    // the size and the round-off of distances
+    let far = flat.corners.iter().fold(p.abs(), |far, corner| far.max(corner.abs()));
+    let slack = RESOLUTION * flat.size() + 8.0 * f64::EPSILON * far.max_element();
     let mut search = Search { patch, bounds: &flat.bounds, p, best: limit, at: None };
     open.clear();
     let mut next = Some((0.0, Piece::of(flat)));
     while let Some((lower, piece)) = next {
-        let out_of_reach = search.at.is_some() && lower + slack > search.best;
+        let out_of_reach = search.at.is_some() && lower + slack >= search.best;
         if !out_of_reach && !search.settles(&piece) && piece.leg >= SMALLEST_LEG {
             let mut parts = piece.parts(patch).map(|part| (search.lower_bound(&part), part));
             // the most promising one last, to be taken first

@@ -1,11 +1,12 @@
 //! Boxes, and pieces of patches.
 
+use std::hint::black_box;
+
 use basemesh::FaceId;
 use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
 use super::ray::Ray;
-use crate::curvature_parameter::lesser;
 use crate::quad::NagataQuad;
 use crate::surface::Patch;
 use crate::triangle::NagataTriangle;
@@ -111,6 +112,13 @@ impl Flat {
         NagataTriangle { corners: [a, b, c], curvature: [c0, c1, c2] }
     }
 
+    /// Reads a number of each cache line, so that several are waited for together.
+    #[inline]
+    pub(super) fn fetch(&self) {
+        let Self { corners, curvature, bounds, .. } = self;
+        black_box((corners[0].x, corners[2].z, curvature[2].x, bounds.bulge));
+    }
+
     /// Faces in order.
     pub(super) fn order(&self) -> (FaceId, u8) {
         (self.face, self.half)
@@ -131,28 +139,6 @@ impl Flat {
     pub(super) fn size(&self) -> f64 {
         let [a, b, c] = self.corners;
         a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
-    }
-
-    /// How close `p` is to the patch: no point is closer than the first distance, one is not farther than
-    /// the second, up to round-off of the positions.
-    ///
-    /// The second is the distance of the point above that of the flat triangle which is closest to `p`, the
-    /// first the least distance in the same direction.
-    #[inline]
-    pub(super) fn reach(&self, p: DVec3) -> [f64; 2] {
-        let ([a, b, c], [c0, c1, c2]) = (self.corners, self.curvature);
-        let [s, t, u] = closest_weights(p, self.corners);
-        // from the point of the quadratic patch there
-        let to = p - (a * s + b * t + c * u) + c0 * (t * u) + c1 * (u * s) + c2 * (s * t);
-        let upper = to.length();
-        // how far the patch is in this direction: a quadratic polynomial
-        let heights = [a, b, c].map(|corner| to.dot(p - corner));
-        let lower = if upper > 0.0 {
-            lowest(heights, [c0, c1, c2].map(|c| to.dot(c))) / upper
-        } else {
-            0.0
-        };
-        [(lower - self.off_quadratic).max(0.0), upper + self.off_quadratic]
     }
 }
 
@@ -211,26 +197,6 @@ impl Piece {
         let weights = closest_weights(at.extend(0.0), flat);
         a * weights[0] + b * weights[1] + c * weights[2]
     }
-}
-
-/// A lower bound of `Σ h_i b_i + Σ g_i b_j b_k` on the triangle: the least Bézier coefficient after all edges
-/// are halved.
-#[inline]
-fn lowest([h0, h1, h2]: [f64; 3], [g0, g1, g2]: [f64; 3]) -> f64 {
-    let (m0, m1, m2) = ((h1 + h2 + g0) * 0.5, (h2 + h0 + g1) * 0.5, (h0 + h1 + g2) * 0.5);
-    let middle = m0 + m1 + m2;
-    let least = lesser(lesser(h0, h1), h2);
-    let halves = [h0 + m1, h0 + m2, h1 + m2, h1 + m0, h2 + m0, h2 + m1];
-    let quarters = [
-        h0 + 2.0 * m2 + h1,
-        h1 + 2.0 * m0 + h2,
-        h2 + 2.0 * m1 + h0,
-        h0 + middle,
-        h1 + middle,
-        h2 + middle,
-    ];
-    let least = halves.into_iter().fold(least, |least, h| lesser(least, 0.5 * h));
-    quarters.into_iter().fold(least, |least, q| lesser(least, 0.25 * q))
 }
 
 /// Barycentric weights of the point of a flat triangle closest to `p`.

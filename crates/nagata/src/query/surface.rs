@@ -9,7 +9,7 @@ use super::bounds::{self, Bounds};
 use super::piece::{Aabb, Flat, Piece};
 use super::ray::{self, Ray};
 use super::side::{self, Candidate};
-use super::tree::Tree;
+use super::tree::{Tree, WIDTH};
 use super::{Closest, Hit, PatchPoint, closest};
 use crate::settings::Continuity;
 use crate::surface::{NagataSurface, Patch};
@@ -24,6 +24,7 @@ const SAME_HIT: f64 = 1e-10;
 /// The closest point of one face.
 #[derive(Clone, Copy, Debug)]
 struct Near {
+    item: usize,
     face: FaceId,
     parameters: [f64; 2],
     distance: f64,
@@ -40,7 +41,8 @@ impl Patch {
     /// The closest point of the closed patch, and the distance, negative on the side the normal points
     /// away from; `None` if `p` is not finite.
     ///
-    /// Global: no other point of the patch is closer by more than 1e-10 of its size.
+    /// Global: no other point of the patch is closer by more than 1e-10 of its size and the round-off of the
+    /// positions.
     #[must_use]
     pub fn closest(&self, p: DVec3) -> Option<(PatchPoint, f64)> {
         let bounds = Bounds::of(self);
@@ -141,69 +143,71 @@ impl<'a> SurfaceQueries<'a> {
         let limit = Cell::new(f64::INFINITY);
         let lower = |distance: f64| limit.set(limit.get().min(widened(distance)));
         let mut items: Vec<(f64, usize)> = Vec::new();
-        self.tree.visit_near(p, &limit, |item| {
-            let [least, most] = self.flats[item].reach(p);
-            lower(most);
-            if least <= limit.get() {
-                items.push((least, item));
-            }
+        self.tree.visit_near(p, &limit, |first, [least, most]| {
+            let here = first..self.flats.len().min(first + WIDTH);
+            most[..here.len()].iter().for_each(|most| lower(*most));
+            items
+                .extend(least.iter().copied().zip(here).filter(|(least, _)| *least <= limit.get()));
         });
         items.retain(|(least, _)| *least <= limit.get());
+        items.iter().for_each(|(_, item)| self.flats[*item].fetch());
         items.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let (mut nearest, mut open): (Vec<Near>, _) = (Vec::new(), Vec::new());
         for (least, item) in items {
             if least > limit.get() {
                 break;
             }
-            if let Some(next) = self.near(&self.flats[item], p, limit.get(), &mut open) {
+            if let Some(next) = self.near(item, p, limit.get(), &mut open) {
                 lower(next.distance);
                 nearest.retain(|near| near.distance <= limit.get() && near.face != next.face);
                 nearest.push(next);
             }
         }
-        let order =
-            |a: &Near, b: &Near| a.distance.total_cmp(&b.distance).then(a.face.cmp(&b.face));
-        let first = *nearest.iter().min_by(|a, b| order(a, b))?;
-        let at = self.candidate(&first).found.at.point;
-        let same = SAME_POINT * first.size;
-        let candidates: Vec<Candidate> = nearest
-            .into_iter()
-            .filter(|near| near.distance <= limit.get())
-            .map(|near| self.candidate(&near))
-            .filter(|candidate| candidate.found.at.point.distance(at) <= same)
-            .collect();
+        nearest.retain(|near| near.distance <= limit.get());
+        let candidates = nearest.iter().map(|near| self.candidate(near));
+        let mut candidates: Vec<Candidate> = candidates.collect();
+        let order = |a: &(&Near, &Candidate), b: &(&Near, &Candidate)| {
+            a.0.distance.total_cmp(&b.0.distance).then(a.0.face.cmp(&b.0.face))
+        };
+        let (first, at) = nearest.iter().zip(&candidates).min_by(order)?;
+        let (at, same) = (at.found.at.point, SAME_POINT * first.size);
+        candidates.retain(|candidate| candidate.found.at.point.distance(at) <= same);
         side::signed(&candidates, p)
     }
 
-    /// The closest point of one face or half of it, if it is not farther than `limit`.
+    /// The patch of an item; of a quadrilateral for each of its halves.
+    fn patch(&self, flat: &Flat) -> Patch {
+        match self.surface.settings().continuity {
+            Continuity::Position if self.surface.mesh().is_triangular() => {
+                Patch::Triangle(flat.quadratic())
+            }
+            _ => self.surface.patch(flat.face),
+        }
+    }
+
+    /// The closest point of an item, if it is not farther than `limit`.
     fn near(
         &self,
-        flat: &Flat,
+        item: usize,
         p: DVec3,
         limit: f64,
         open: &mut Vec<(f64, Piece)>,
     ) -> Option<Near> {
-        let face = flat.face;
-        let patch = match self.surface.settings().continuity {
-            Continuity::Position if self.surface.mesh().is_triangular() => {
-                Patch::Triangle(flat.quadratic())
-            }
-            Continuity::Position => self.surface.patch(face),
-            Continuity::TangentPlane(_) => {
-                // the quadratic patch nearby is much faster to search
-                let quadratic = Patch::Triangle(flat.quadratic());
-                let nearby = Flat { bounds: Bounds::of(&quadratic), ..*flat };
-                closest::closest(&quadratic, &nearby, p, limit + flat.off_quadratic, open)?;
-                self.surface.patch(face)
-            }
-        };
+        let flat = &self.flats[item];
+        if matches!(self.surface.settings().continuity, Continuity::TangentPlane(_)) {
+            // the quadratic patch nearby is much faster to search
+            let quadratic = Patch::Triangle(flat.quadratic());
+            let nearby = Flat { bounds: Bounds::of(&quadratic), ..*flat };
+            closest::closest(&quadratic, &nearby, p, limit + flat.off_quadratic, open)?;
+        }
+        let patch = self.patch(flat);
         let (parameters, distance) = closest::closest(&patch, flat, p, limit, open)?;
-        Some(Near { face, parameters, distance, size: flat.size() })
+        Some(Near { item, face: flat.face, parameters, distance, size: flat.size() })
     }
 
     fn candidate(&self, near: &Near) -> Candidate {
-        let Near { face, parameters, distance, .. } = *near;
-        let patch = self.surface.patch(face);
+        let Near { item, face, parameters, distance, .. } = *near;
+        let patch = self.patch(&self.flats[item]);
         let found = Closest { face, at: patch.at(parameters), signed_distance: distance };
         Candidate { found, weight: side::angle_at(&patch, parameters) }
     }

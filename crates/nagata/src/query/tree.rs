@@ -1,22 +1,26 @@
 //! A hierarchy of oriented boxes around flat triangles.
 
 use std::cell::Cell;
+use std::hint::black_box;
 
 use glam::DVec3;
 
+use super::leaf::{Leaf, Reach};
 use super::piece::Flat;
 use super::ray::Ray;
 
 /// Children of a node.
 pub(super) const WIDTH: usize = 8;
-/// Marks an item among the entries of a traversal.
-const ITEM: u32 = 1 << 31;
+/// Marks an item or a leaf among the entries of a traversal.
+const LAST: u32 = 1 << 31;
 
 /// A tree over numbered items, each a flat triangle with what bulges from it. Items are numbered in the
 /// order of the leaves; the depth is the logarithm of their number, whatever they are.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
     nodes: Vec<Node>,
+    /// Eight items each, in order.
+    leaves: Vec<Leaf>,
     /// Length of a unit of the boxes.
     unit: f64,
 }
@@ -32,6 +36,8 @@ pub(super) struct Node {
     high: [[f32; WIDTH]; 3],
     /// The first child, the others follow: items, marked, or nodes.
     first: u32,
+    /// The same, but with leaves, marked, for children that are items or have no other children.
+    first_or_leaf: u32,
     count: u32,
 }
 
@@ -45,8 +51,9 @@ impl Tree {
             });
         let size = (high - low).max_element();
         let unit = if size > 0.0 { size } else { 1.0 };
-        let mut tree = Self { nodes: vec![Node::EMPTY], unit };
+        let mut tree = Self { nodes: vec![Node::EMPTY], leaves: Vec::new(), unit };
         tree.fill(0, 0, items);
+        tree.leaves = items.chunks(WIDTH).map(|items| Leaf::new(items, 1.0 / unit)).collect();
         tree
     }
 
@@ -63,13 +70,16 @@ impl Tree {
             node.set_box(k, items, scale);
         }
         node.count = number(items.len().div_ceil(part));
+        // all parts before the last one are full: leaves begin with multiples of their size
+        let leaf = number(first / WIDTH) | LAST;
         if part == 1 {
-            node.first = number(first) | ITEM;
+            (node.first, node.first_or_leaf) = (number(first) | LAST, leaf);
             self.nodes[at] = node;
             return;
         }
         let child = self.nodes.len();
         node.first = number(child);
+        node.first_or_leaf = if part == WIDTH { leaf } else { node.first };
         self.nodes.resize(child + node.count as usize, Node::EMPTY);
         self.nodes[at] = node;
         for (k, items) in items.chunks_mut(part).enumerate() {
@@ -77,22 +87,30 @@ impl Tree {
         }
     }
 
-    /// Visits the items whose box is not farther from `p` than `limit`, which may be lowered meanwhile;
-    /// roughly the nearest first.
-    pub(super) fn visit_near(&self, p: DVec3, limit: &Cell<f64>, mut visit: impl FnMut(usize)) {
+    /// Visits runs of up to eight items whose box is not farther from `p` than `limit`, which may be lowered
+    /// meanwhile; roughly the nearest first. `visit` takes the first item.
+    pub(super) fn visit_near(
+        &self,
+        p: DVec3,
+        limit: &Cell<f64>,
+        mut visit: impl FnMut(usize, &Reach),
+    ) {
         let squared = |distance: f64| (distance / self.unit) * (distance / self.unit);
-        let most = || squared(limit.get());
+        let mut one_leaf = [f64::NAN; WIDTH];
+        one_leaf[0] = 0.0;
         let keys = |node: &Node| {
-            let keys = node.squared_distances(p);
-            let Some(first) = node.first_item() else { return keys };
-            for (k, key) in keys[..node.count as usize].iter().enumerate() {
-                if *key <= most() {
-                    visit(first + k);
-                }
-            }
-            [f64::NAN; WIDTH]
+            let has_items = node.first & LAST != 0;
+            if has_items { one_leaf } else { node.squared_distances(p) }
         };
-        self.visit(most, keys, |_| ());
+        let visit = |leaf: usize| visit(leaf * WIDTH, &self.leaves[leaf].reach(p, 1.0 / self.unit));
+        let fetch = |at: u32| {
+            if at & LAST != 0 {
+                self.leaves[(at & !LAST) as usize].fetch();
+            } else {
+                self.nodes[at as usize].fetch();
+            }
+        };
+        self.visit(|| squared(limit.get()), keys, |node| node.first_or_leaf, fetch, visit);
     }
 
     /// Visits the items whose box a ray meets before `limit` of its parameter, which may be lowered
@@ -105,15 +123,18 @@ impl Tree {
         visit: impl FnMut(usize),
     ) {
         let slack = slack / self.unit;
-        self.visit(|| limit.get(), |node| node.entries(ray, slack, limit.get()), visit);
+        let keys = |node: &Node| node.entries(ray, slack, limit.get());
+        self.visit(|| limit.get(), keys, |node| node.first, |_| (), visit);
     }
 
-    /// Visits items with keys up to `most`, roughly ascending. `keys` are those of the children of a node;
-    /// NaN for a child without interest.
+    /// Visits what is marked and has keys up to `most`, roughly ascending. `keys` are those of the children of
+    /// a node, of which it has the `first` one; NaN for a child without interest.
     fn visit(
         &self,
         most: impl Fn() -> f64,
-        mut keys: impl FnMut(&Node) -> [f64; WIDTH],
+        keys: impl Fn(&Node) -> [f64; WIDTH],
+        first: impl Fn(&Node) -> u32,
+        fetch: impl Fn(u32),
         mut visit: impl FnMut(usize),
     ) {
         let mut open: Vec<(f64, u32)> = Vec::with_capacity(64);
@@ -122,15 +143,16 @@ impl Tree {
             if key > most() {
                 continue;
             }
-            if at & ITEM != 0 {
-                visit((at & !ITEM) as usize);
+            if at & LAST != 0 {
+                visit((at & !LAST) as usize);
                 continue;
             }
             let node = &self.nodes[at as usize];
             let (all, start) = (keys(node), open.len());
-            for (at, key) in (node.first..).zip(&all[..node.count as usize]) {
+            for (at, key) in (first(node)..).zip(&all[..node.count as usize]) {
                 if *key <= most() {
                     open.push((*key, at));
+                    fetch(at);
                     // the nearest one last, to be taken first
                     let mut k = open.len() - 1;
                     while k > start && open[k - 1].0 <= open[k].0 {
@@ -150,6 +172,7 @@ impl Node {
         low: [[0.0; WIDTH]; 3],
         high: [[0.0; WIDTH]; 3],
         first: 0,
+        first_or_leaf: 0,
         count: 0,
     };
 
@@ -162,9 +185,11 @@ impl Node {
         Self { centre, axes: [normal, x, y].map(|axis| axis * scale), ..Self::EMPTY }
     }
 
-    /// The number of the first child if the children are items.
-    fn first_item(&self) -> Option<usize> {
-        (self.first & ITEM != 0).then_some((self.first & !ITEM) as usize)
+    /// Reads a number of each cache line, so that several nodes are waited for together.
+    #[inline]
+    fn fetch(&self) {
+        let boxes = self.low.iter().chain(&self.high).map(|all| all[0]);
+        black_box((boxes.sum::<f32>(), self.centre.x, self.first));
     }
 
     /// Components along the axes.
