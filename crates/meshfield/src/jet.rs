@@ -10,7 +10,8 @@ use crate::polynomial::Polynomial;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FitQuality {
-    /// Degree of the polynomial.
+    /// Degree of the polynomial; 1 where no polynomial agrees with the faces: then the normal is their
+    /// mean, and the curvatures are those that the normals along edges show.
     pub degree: usize,
     /// Points that were used.
     pub points: usize,

@@ -6,6 +6,7 @@ mod error;
 mod field;
 mod fit;
 mod jet;
+mod plain;
 mod polynomial;
 mod rings;
 mod settings;

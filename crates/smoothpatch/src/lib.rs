@@ -3,6 +3,8 @@
 pub mod measure;
 
 mod adapt;
+mod again;
+mod agreement;
 pub mod apatch_surface;
 mod error;
 mod folds;

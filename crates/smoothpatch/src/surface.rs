@@ -112,11 +112,11 @@ impl G1Surface {
         fill(&self.mesh, &self.network, target, &plan).nets
     }
 
-    /// Largest coefficient of the smoothness condition over all edges, in chord lengths.
+    /// Largest coefficient of the smoothness condition over all edges with two faces, in chord lengths.
     #[must_use]
     pub fn max_row_residual(&self) -> f64 {
         let residuals = EdgeMap::from_fn(self.mesh.topology().edge_count(), |edge| {
-            self.patches.edge_residual(&self.mesh, &self.network, edge).unwrap_or(f64::INFINITY)
+            self.patches.edge_residual(&self.mesh, &self.network, edge).unwrap_or(0.0)
         });
         residuals.as_slice().iter().copied().fold(0.0, f64::max)
     }

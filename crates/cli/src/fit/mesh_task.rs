@@ -161,8 +161,8 @@ impl MeshReport {
         if let Some(text) = repairs_text(repairs) {
             table.row("put in order", text);
         }
-        let [second, third, fourth] = jets.by_degree;
-        let degrees = [(second, 2), (third, 3), (fourth, 4)]
+        let [first, second, third, fourth] = jets.by_degree;
+        let degrees = [(first, 1), (second, 2), (third, 3), (fourth, 4)]
             .into_iter()
             .filter(|(count, _)| *count > 0)
             .map(|(count, degree)| format!("{count} of degree {degree}"));
