@@ -80,7 +80,9 @@ pub(crate) fn contradicted(
         // not a number is missed too
         !(most <= MET * q0.distance(q4))
     };
-    mesh.topology().edges().filter(|&edge| is_missed(edge)).collect()
+    let topology = mesh.topology();
+    // on a boundary there are no conditions
+    topology.edges().filter(|&e| !topology.is_boundary_edge(e) && is_missed(e)).collect()
 }
 
 /// A second fundamental form by its entries along two axes, `(xx, xy, yy)`.
@@ -145,6 +147,9 @@ impl Bend {
         edge: EdgeId,
         emphasis: f64,
     ) -> Option<Self> {
+        if mesh.topology().is_boundary_edge(edge) {
+            return None;
+        }
         let ends = mesh.topology().edge_vertices(edge);
         let [p, q] = ends.map(|v| mesh.position(v));
         let length = p.distance(q);

@@ -9,7 +9,7 @@ use bezier_core::SurfaceJet;
 use g1_triangular::{
     CurveNetwork, Earlier, Nothing, PositionalPatches, SmoothPatches, fill_reusing, join_reusing,
 };
-use hermite_sqp::{CurveFoot, CurveRefinement, CurveSample, EdgeOutcome, EdgeProblem};
+use hermite_sqp::{CurveFoot, CurveRefinement, CurveSample, EdgeOutcome, EdgeProblem, EdgeStatus};
 use implicit::{Aabb, ImplicitSurface};
 
 use crate::adapt::equalise;
@@ -258,6 +258,7 @@ fn surface(
         retreats: objectives.retreats,
         origin: BaseMeshOrigin::default(),
         times: StageTimes::default(),
+        rim: None,
     }
 }
 
@@ -397,6 +398,10 @@ fn fit_curve(
     edge: EdgeId,
     refinement: CurveRefinement,
 ) -> Result<EdgeOutcome, FitError> {
+    if let Some(curve) = target.given_curve(edge) {
+        let status = EdgeStatus::Converged { iterations: 0, published_iterations: 0 };
+        return Ok(EdgeOutcome { curve, status });
+    }
     let [a, b] = mesh.topology().edge_vertices(edge);
     let samples = curve_samples(&jets[a], &jets[b], target, settings.curve_sections);
     let problem = EdgeProblem::new(&jets[a], &jets[b], &samples).map_err(|reason| {

@@ -21,23 +21,26 @@ pub struct JetSummary {
     pub worst_vertex: usize,
 }
 
-/// Summary of the fits of a mesh.
+/// Summary of the fits of a mesh, or of the pieces of one: vertices are then counted piece after piece.
 #[must_use]
-pub fn jet_summary(field: &MeshField) -> JetSummary {
+pub fn jet_summary(fields: &[&MeshField]) -> JetSummary {
     let mut summary = JetSummary::default();
-    for (vertex, jet) in field.jets().iter() {
+    let jets = fields.iter().flat_map(|field| field.jets().as_slice());
+    let mut count = 0;
+    for (vertex, jet) in jets.enumerate() {
+        count += 1;
         let quality = jet.quality();
         summary.by_degree[quality.degree - 1] += 1;
         if quality.degree == 1 {
-            summary.plain_vertices.push(vertex.index());
+            summary.plain_vertices.push(vertex);
         }
         summary.max_condition = summary.max_condition.max(quality.condition);
         summary.rms_residual += quality.residual.powi(2);
         if quality.residual > summary.max_residual {
             summary.max_residual = quality.residual;
-            summary.worst_vertex = vertex.index();
+            summary.worst_vertex = vertex;
         }
     }
-    summary.rms_residual = (summary.rms_residual / field.jets().len() as f64).sqrt();
+    summary.rms_residual = (summary.rms_residual / f64::from(count.max(1))).sqrt();
     summary
 }
