@@ -1,8 +1,8 @@
 //! Where second-order data come from.
 
 use basemesh::{EdgeId, VertexId, VertexMap};
-use bezier_core::{QuarticCurve, SurfaceJet};
 use bezier_core::glam::DVec3;
+use bezier_core::{QuarticCurve, SurfaceJet};
 
 /// Position, unit normal and second fundamental form at the vertices of a mesh.
 ///

@@ -169,8 +169,7 @@ fn gram(rows: &[Option<Row>], across: &[DVec3]) -> DMatrix<f64> {
         let previous = before(i, n);
         gram[(i, i)] += 36.0 * ((1.0 - lambda).powi(2) + lambda.powi(2));
         if let Some(other) = &rows[previous] {
-            let coupling =
-                36.0 * lambda * (1.0 - other.lambda0) * across[i].dot(across[previous]);
+            let coupling = 36.0 * lambda * (1.0 - other.lambda0) * across[i].dot(across[previous]);
             gram[(i, previous)] += coupling;
             gram[(previous, i)] += coupling;
         }

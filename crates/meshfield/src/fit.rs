@@ -90,8 +90,7 @@ fn fit_jet(
         }
         let mut jet = jet?;
         jet.quality.normal_error = normal_error(mesh, normals, vertex, &jet);
-        let most =
-            if degree == 2 { settings.max_quadric_error } else { settings.max_normal_error };
+        let most = if degree == 2 { settings.max_quadric_error } else { settings.max_normal_error };
         let is_resolved = jet.quality.normal_error <= most;
         (is_resolved && jet.quality.condition <= settings.max_condition).then_some(jet)
     })

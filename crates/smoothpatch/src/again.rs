@@ -27,9 +27,11 @@ impl<'a> Unchanged<'a> {
         let topology = mesh.topology();
         let new_positional = FaceMap::from_fn(topology.face_count(), |face| {
             plan.fill[face] != old_plan.fill[face]
-                || face.halfedges().map(|h| topology.edge(h)).into_iter().any(|edge| {
-                    curves[edge].curve != old_curves[edge].curve
-                })
+                || face
+                    .halfedges()
+                    .map(|h| topology.edge(h))
+                    .into_iter()
+                    .any(|edge| curves[edge].curve != old_curves[edge].curve)
         });
         // rows depend on all faces around both ends
         let near = |edge: EdgeId| {

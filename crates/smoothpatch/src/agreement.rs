@@ -37,9 +37,8 @@ pub(crate) fn agreeing(
     emphasis: &EdgeMap<f64>,
 ) -> VertexMap<SurfaceJet> {
     let topology = mesh.topology();
-    let edges = EdgeMap::from_fn(topology.edge_count(), |edge| {
-        Bend::new(mesh, jets, edge, emphasis[edge])
-    });
+    let edges =
+        EdgeMap::from_fn(topology.edge_count(), |edge| Bend::new(mesh, jets, edge, emphasis[edge]));
     let mut forms = VertexMap::from_fn(topology.vertex_count(), |v| Form::new(mesh, jets, v));
     let mut free = vec![false; topology.vertex_count()];
     for _ in 0..ROUNDS {
@@ -98,8 +97,7 @@ impl Form {
     fn new(mesh: &TriMesh, jets: &VertexMap<SurfaceJet>, vertex: VertexId) -> Self {
         let jet = &jets[vertex];
         let (x, y) = jet.normal.any_orthonormal_pair();
-        let given =
-            DVec3::new(jet.second_form(x, x), jet.second_form(x, y), jet.second_form(y, y));
+        let given = DVec3::new(jet.second_form(x, x), jet.second_form(x, y), jet.second_form(y, y));
         let topology = mesh.topology();
         let (sum, count) = topology.fan(vertex).fold((0.0, 0), |(sum, count), h| {
             (sum + mesh.edge_length(topology.edge(h)), count + 1)
@@ -165,8 +163,7 @@ impl Bend {
         let heights = [0, 1].map(|k| 3.0 * (middle - [p, q][k]).dot(normals[k]) / length);
         let scales = handles.map(|a| 4.0 * (0.75 * a).powi(2) * length);
         let cosine = normals[0].dot(normals[1]);
-        let (diagonal, determinant) =
-            (1.0 + PARALLEL, (1.0 + PARALLEL).powi(2) - cosine * cosine);
+        let (diagonal, determinant) = (1.0 + PARALLEL, (1.0 + PARALLEL).powi(2) - cosine * cosine);
         let inverse = [diagonal, -cosine].map(|entry| emphasis * entry / determinant);
         Some(Self { ends, tangents, scales, heights, inverse })
     }

@@ -22,7 +22,7 @@ use crate::memory::{Keys, Memory, Recall};
 use crate::objectives::Objectives;
 use crate::progress::{Clock, Progress, Stage, StageTimes};
 use crate::reconcile::reconciled;
-use crate::repair::{edges_to_split, refine};
+use crate::repair::{self, edges_to_split, refine};
 use crate::settings::{SecondForms, Settings};
 use crate::source::{FieldSource, FitSource};
 use crate::surface::{BaseMeshOrigin, G1Surface, Polygonized};
@@ -143,9 +143,47 @@ pub(crate) fn needs_repair(surface: &G1Surface, source: &dyn FitSource) -> bool 
         || !find_folds(mesh, jets, &patches.nets, source).is_empty()
 }
 
+/// Rounds that refine a mesh of estimated data where patches still fold.
+const FOLD_ROUNDS: usize = 2;
+
 /// Curves, then patches, then smooth patches; with local refinement of the mesh where its curves
-/// show that it does not resolve the surface.
+/// show that it does not resolve the surface, and, for estimated data, where patches still fold.
 pub(crate) fn fit_mesh(
+    mesh: TriMesh,
+    source: &dyn FitSource,
+    settings: &Settings,
+    repair_rounds: usize,
+    clock: &mut Clock<'_>,
+) -> Result<G1Surface, FitError> {
+    let folds = |surface: &G1Surface| {
+        find_folds(&surface.mesh, &surface.jets, &surface.patches.nets, source)
+    };
+    let mut best = fit_mesh_once(mesh, source, settings, repair_rounds, clock)?;
+    if repair_rounds == 0 || settings.second_forms == SecondForms::Given {
+        return Ok(best);
+    }
+    let mut left = folds(&best);
+    let mut refined = repair::edges_of_folds(&best.mesh, &best.jets, &left);
+    let mut mesh = best.mesh.clone();
+    for _ in 0..FOLD_ROUNDS {
+        if left.is_empty() {
+            break;
+        }
+        let split = clock.run(Stage::Simplify, refined.len(), || refine(&mesh, source, &refined));
+        // no surface near an edge: what cannot be mended is reported
+        let Ok(split) = split else { break };
+        let next = fit_mesh_once(split, source, settings, repair_rounds, clock)?;
+        let folded = folds(&next);
+        refined = repair::edges_of_folds(&next.mesh, &next.jets, &folded);
+        mesh = next.mesh.clone();
+        if folded.len() < left.len() {
+            (best, left) = (next, folded);
+        }
+    }
+    Ok(best)
+}
+
+fn fit_mesh_once(
     mut mesh: TriMesh,
     source: &dyn FitSource,
     settings: &Settings,

@@ -1,8 +1,8 @@
 //! The result of the pipeline.
 
 use basemesh::{
-    EdgeId, EdgeMap, FaceMap, Polygonization, SimplifyReport, SurfaceTarget, TopologyCount, TriMesh,
-    VertexMap,
+    EdgeId, EdgeMap, FaceMap, Polygonization, SimplifyReport, SurfaceTarget, TopologyCount,
+    TriMesh, VertexMap,
 };
 use bezier_core::{SepticTriangle, SurfaceJet};
 use g1_triangular::{CurveNetwork, Plan, SmoothPatches, fill};

@@ -68,7 +68,9 @@ impl Task {
     pub(crate) fn source(&self, diagonal: f64) -> Result<Box<dyn FitSource + '_>, &SharpMesh> {
         let projection = self.settings.projection;
         match &self.input {
-            Input::Scene(scene) => Ok(Box::new(FieldSource::new(&*scene.field, diagonal, projection))),
+            Input::Scene(scene) => {
+                Ok(Box::new(FieldSource::new(&*scene.field, diagonal, projection)))
+            }
             Input::Mesh(mesh) => match &mesh.shape {
                 MeshShape::Smooth(field) => Ok(Box::new(MeshSource::new(field, projection))),
                 MeshShape::Sharp(sharp) => Err(sharp),

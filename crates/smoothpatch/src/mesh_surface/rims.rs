@@ -66,7 +66,8 @@ fn tangents_through(mesh: &TriMesh, vertex: VertexId, edges: &[EdgeId]) -> Vec<(
         let [a, b] = mesh.topology().edge_vertices(edge);
         mesh.position(if a == vertex { b } else { a }) - mesh.position(vertex)
     };
-    let pairs = edges.iter().enumerate().flat_map(|(k, &a)| edges[k + 1..].iter().map(move |&b| (a, b)));
+    let pairs =
+        edges.iter().enumerate().flat_map(|(k, &a)| edges[k + 1..].iter().map(move |&b| (a, b)));
     let turning = |(a, b): (EdgeId, EdgeId)| (-offset(a)).angle_between(offset(b));
     let straightest = pairs.map(|pair| (turning(pair), pair)).min_by(|a, b| a.0.total_cmp(&b.0));
     let Some((_, (a, b))) = straightest.filter(|(turn, _)| *turn < SAME_CURVE) else {
@@ -80,11 +81,7 @@ fn tangents_through(mesh: &TriMesh, vertex: VertexId, edges: &[EdgeId]) -> Vec<(
 
 /// The cubic with these tangents, which is an arc where they allow it; without one, the curve ends as a
 /// circle does.
-fn curve(
-    mesh: &TriMesh,
-    edge: EdgeId,
-    through: &VertexMap<Vec<(EdgeId, DVec3)>>,
-) -> QuarticCurve {
+fn curve(mesh: &TriMesh, edge: EdgeId, through: &VertexMap<Vec<(EdgeId, DVec3)>>) -> QuarticCurve {
     let ends = mesh.topology().edge_vertices(edge);
     let [p, q] = ends.map(|v| mesh.position(v));
     let chord = q - p;
@@ -98,9 +95,8 @@ fn curve(
         [None, Some(b)] => [mirrored(b), b],
         [None, None] => [direction, -direction],
     };
-    let handle = |t: DVec3, along: DVec3| {
-        t * (length * 2.0 / (3.0 * (1.0 + t.dot(along).max(0.0))))
-    };
+    let handle =
+        |t: DVec3, along: DVec3| t * (length * 2.0 / (3.0 * (1.0 + t.dot(along).max(0.0))));
     let inner = [p + handle(tangents[0], direction), q + handle(tangents[1], -direction)];
     BezierCurve::<DVec3, 4>::new([p, inner[0], inner[1], q]).elevate_to()
 }

@@ -148,7 +148,8 @@ impl Piece {
             faces.iter().flat_map(|&face| topology.corners(face)).collect();
         vertices.sort_unstable();
         vertices.dedup();
-        let local = |v: VertexId| vertices.binary_search(&v).expect("invariant: a vertex of the piece");
+        let local =
+            |v: VertexId| vertices.binary_search(&v).expect("invariant: a vertex of the piece");
         let corners: Vec<[usize; 3]> =
             faces.iter().map(|&face| topology.corners(face).map(local)).collect();
         let positions = vertices.iter().map(|&v| cut.mesh.position(v)).collect();
