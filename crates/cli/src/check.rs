@@ -5,15 +5,18 @@ mod findings;
 
 use std::path::PathBuf;
 
+use anyhow::bail;
 use clap::{ArgGroup, Args};
+use smoothpatch::io::read_mesh_file;
 
 use crate::arguments::EXIT_CODES;
 use crate::exit::{Outcome, complain};
 use crate::stdout::{print, print_json};
 use crate::surface::{SURFACE, SurfaceArguments};
 use crate::threads::ThreadArguments;
+use crate::values;
 use bounds::Bounds;
-use findings::{Findings, Reading};
+use findings::{Findings, Reading, Reference};
 
 /// Read patches back from a file and measure them anew
 ///
@@ -36,6 +39,16 @@ pub(crate) struct CheckArguments {
     #[command(flatten)]
     surface: SurfaceArguments,
 
+    /// Compare with a mesh (OBJ, STL, PLY, OFF): its vertices and triangles, in both directions
+    #[arg(long, value_name = "MESH", group = SURFACE)]
+    mesh: Option<PathBuf>,
+
+    /// Edges along which the patches meet at more than this angle somewhere are creases: they are
+    /// counted apart and are not part of the G1 angle
+    #[arg(long, value_name = "DEG", value_parser = values::crease_angle)]
+    #[arg(allow_hyphen_values = true)]
+    crease_angle: Option<f64>,
+
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -52,7 +65,8 @@ Examples:
   smoothpatch check torus.vtu
   smoothpatch check torus.vtu --scene fixtures/scenes/torus.ron --max-deviation 1e-5 --euler 0
   smoothpatch check cube.vtu --formula \"x^4 + y^4 + z^4 - 16\" --max-normal-error 0.1 --json
-  smoothpatch check torus.vtu --closed --max-g1-angle 1e-9 --max-folds 0";
+  smoothpatch check torus.vtu --closed --max-g1-angle 1e-9 --max-folds 0
+  smoothpatch check block.vtu --mesh block.obj --crease-angle 40 --max-deviation 1e-3";
 
 pub(crate) fn run(arguments: &CheckArguments) -> anyhow::Result<Outcome> {
     let chosen = arguments.surface.scene(arguments.scene.as_deref())?;
@@ -61,8 +75,20 @@ pub(crate) fn run(arguments: &CheckArguments) -> anyhow::Result<Outcome> {
         Some(chosen) => Some(smoothpatch::scene::field_of(&chosen.scene.surface)?),
         None => None,
     };
+    let mesh = match &arguments.mesh {
+        Some(file) => Some(read_mesh_file(file)?.mesh),
+        None => None,
+    };
+    if let (Some(_), Some(bound)) = (&mesh, arguments.bounds.not_for_meshes()) {
+        bail!("{bound} has no meaning with --mesh, whose triangles are flat");
+    }
+    let reference = Reference {
+        field: field.as_deref(),
+        mesh: mesh.as_ref(),
+        crease_angle: arguments.crease_angle.map(f64::to_radians),
+    };
     let measured = match findings::read(&arguments.file)? {
-        Reading::Patches(patches) => Ok(findings::measure(&patches, field.as_deref())),
+        Reading::Patches(patches) => Ok(findings::measure(&patches, reference)),
         Reading::NoManifold(problem) => Err(problem),
     };
     let findings = Findings::new(&arguments.file, measured, &arguments.bounds);

@@ -15,7 +15,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use smoothpatch::implicit::Aabb;
 use smoothpatch::io::CellKind;
 use smoothpatch::measure::{Certificate, USUAL_CUTS, certify};
-use smoothpatch::{Method, Report, report};
+use smoothpatch::{Method, Report};
 
 use crate::arguments::EXIT_CODES;
 use crate::exit::{Outcome, complain};
@@ -41,7 +41,7 @@ use task::{Input, Task};
     after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"),
 )]
 pub(crate) struct FitArguments {
-    /// A scene file (RON), or a closed mesh of triangles or polygons (OBJ, STL, PLY, OFF)
+    /// A scene file (RON), or a mesh of triangles or polygons (OBJ, STL, PLY, OFF)
     #[arg(id = "scene", value_name = "SCENE.ron|MESH", group = SURFACE)]
     input: Option<PathBuf>,
 
@@ -186,8 +186,7 @@ pub(crate) fn run(arguments: &FitArguments) -> anyhow::Result<Outcome> {
     let mut progress = progress::listener(arguments.quiet);
     let surface = task.fit(&mut *progress)?;
     let diagonal = surface.mesh.diagonal();
-    let source = task.source(diagonal);
-    let (report, faces) = report(&surface, &*source, &mut *progress);
+    let (report, faces) = task.report(&surface, &mut *progress);
     let certificate = match &task.input {
         Input::Scene(scene) if arguments.certify => {
             let goal = 2.0 * report.deviation.max * diagonal;
@@ -205,9 +204,13 @@ pub(crate) fn run(arguments: &FitArguments) -> anyhow::Result<Outcome> {
 
     let start = Instant::now();
     let mut written = outputs.write(&surface, &faces)?;
-    written.extend(outputs.write_before_join(surface.mesh.topology(), || {
-        surface.before_join(&*source, &task.settings)
-    })?);
+    if let Ok(source) = task.source(diagonal) {
+        written.extend(outputs.write_before_join(surface.mesh.topology(), || {
+            surface.before_join(&*source, &task.settings)
+        })?);
+    } else if arguments.before_join.is_some() {
+        complain("warning: --before-join is not written for meshes with sharp edges");
+    }
     if let Some(path) = &arguments.report {
         written.push(ReportFile::new(&task, &measured, &written).write(path)?);
     }

@@ -15,14 +15,15 @@ use crate::plan::{InnerPoints, Plan, Rows};
 use crate::residual::g1_residual;
 use crate::tangent_planes;
 use crate::vertex_system::{SpokeSolution, solve_vertices};
-use crate::weights::{EdgeWeights, origin_weights};
+use crate::weights::{EdgeWeights, NO_WEIGHTS, origin_weights};
 
 /// Patches whose tangent planes agree along every edge.
 #[derive(Clone, Debug)]
 pub struct SmoothPatches {
     /// Control nets by face.
     pub nets: FaceMap<SepticTriangle>,
-    /// The weight functions that prove the smoothness of each edge.
+    /// The weight functions that prove the smoothness of each edge; zero on a boundary, where there
+    /// is nothing to prove.
     pub weights: EdgeMap<EdgeWeights>,
 }
 
@@ -60,11 +61,11 @@ impl SmoothPatches {
 /// rows and (by [`Plan::inner_points`]) inner points move.
 ///
 /// An edge whose tangent planes cannot be compared with the surface (a foot is missing) gets the
-/// nearest rows instead.
+/// nearest rows instead. Along a boundary the rows of the positional patches stay, but for the twists.
 ///
 /// # Errors
 ///
-/// [`JoinError`] if the surface has a boundary, or where the curves around a vertex do not fan out.
+/// [`JoinError`] where the curves around a vertex do not fan out.
 ///
 /// # Panics
 ///
@@ -119,10 +120,12 @@ pub fn join_reusing(
                 .starting_at(back_to_face(first));
         }
     });
-    Ok(SmoothPatches { nets, weights: edges.map(|_, edge| edge.weights) })
+    let weights = edges.map(|_, rows| rows.map_or(NO_WEIGHTS, |rows| rows.weights));
+    Ok(SmoothPatches { nets, weights })
 }
 
-/// Makes the twist points of the patches final, and finds the rows along all edges.
+/// Makes the twist points of the patches final, and finds the rows along all edges with two
+/// faces whose tangent planes shall agree.
 #[allow(clippy::too_many_arguments, reason = "those of join_reusing")]
 fn edge_rows(
     mesh: &TriMesh,
@@ -132,7 +135,7 @@ fn edge_rows(
     target: &dyn SurfaceTarget,
     plan: &Plan,
     earlier: &dyn Earlier,
-) -> Result<EdgeMap<EdgeRows>, JoinError> {
+) -> Result<EdgeMap<Option<EdgeRows>>, JoinError> {
     let topology = mesh.topology();
     let origin = origin_weights(mesh, jets, network)?;
     let twist = |h: HalfedgeId| nets[h.face()][MultiIndex::along(local_edge(h), 5, 1, 1)];
@@ -140,15 +143,17 @@ fn edge_rows(
     nets.change(|face, net| set_twists(net, face, &spokes));
     EdgeMap::try_from_fn(topology.edge_count(), |edge| {
         if let Some(rows) = earlier.rows(edge) {
-            return Ok(rows);
+            return Ok(Some(rows));
         }
-        let system = EdgeSystem::new(topology, network, nets, &origin, &spokes, edge)?;
+        let Some(system) = EdgeSystem::new(topology, network, nets, &origin, &spokes, edge) else {
+            return Ok(None);
+        };
         let rows = match plan.rows[edge] {
             Rows::Nearest => None,
             Rows::TangentPlanes => tangent_planes::solve(&system, target),
         };
         let vertex = topology.origin(topology.canonical(edge)).index();
-        rows.or_else(|| system.nearest()).ok_or(JoinError::DegenerateFan { vertex })
+        rows.or_else(|| system.nearest()).map(Some).ok_or(JoinError::DegenerateFan { vertex })
     })
 }
 
@@ -162,14 +167,15 @@ fn set_rows(
     net: &mut SepticTriangle,
     topology: &Topology,
     face: FaceId,
-    edges: &EdgeMap<EdgeRows>,
+    edges: &EdgeMap<Option<EdgeRows>>,
 ) {
     for h in corner_halfedges(face) {
         let edge = topology.edge(h);
+        let Some(rows) = &edges[edge] else { continue };
         let middle = if topology.canonical(edge) == h {
-            edges[edge].left
+            rows.left
         } else {
-            let [a, b, c] = edges[edge].right;
+            let [a, b, c] = rows.right;
             [c, b, a]
         };
         for (i, point) in middle.into_iter().enumerate() {

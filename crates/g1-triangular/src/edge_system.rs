@@ -23,7 +23,6 @@ use bezier_core::glam::DVec3;
 use bezier_core::{QuarticCurve, SepticTriangle};
 use nalgebra::SMatrix;
 
-use crate::error::JoinError;
 use crate::faces::local_edge;
 use crate::network::CurveNetwork;
 use crate::vertex_system::SpokeSolution;
@@ -63,25 +62,27 @@ pub struct EdgeRows {
 }
 
 impl EdgeSystem {
-    /// Collects the known quantities of an edge from its two patches, whose twist points are final.
+    /// Collects the known quantities of an edge from its two patches, whose twist points are final;
+    /// `None` on a boundary.
     pub(crate) fn new(
         topology: &Topology,
         network: &CurveNetwork,
         nets: &FaceMap<SepticTriangle>,
-        origin: &HalfedgeMap<OriginWeights>,
+        origin: &HalfedgeMap<Option<OriginWeights>>,
         spokes: &HalfedgeMap<SpokeSolution>,
         edge: EdgeId,
-    ) -> Result<Self, JoinError> {
+    ) -> Option<Self> {
         let h = topology.canonical(edge);
-        let w = topology.twin(h).ok_or(JoinError::OpenSurface { edge: edge.index() })?;
+        let w = topology.twin(h)?;
+        let (start, end) = (origin[h]?, origin[w]?);
         let mut right = nets[w.face()].first_inner_row::<7>(local_edge(w));
         right.reverse();
-        let [mu0, mu1] = [origin[h].mu0, spokes[h].mu1];
-        let [mu4, mu3] = [1.0 - origin[w].mu0, 1.0 - spokes[w].mu1];
+        let [mu0, mu1] = [start.mu0, spokes[h].mu1];
+        let [mu4, mu3] = [1.0 - end.mu0, 1.0 - spokes[w].mu1];
         let mu2 = (4.0 * (mu1 + mu3) - (mu0 + mu4)) / 6.0;
-        Ok(Self {
+        Some(Self {
             curve: network.curves()[edge],
-            lambda: [origin[h].lambda0, 1.0 - origin[w].lambda0],
+            lambda: [start.lambda0, 1.0 - end.lambda0],
             mu_at_zero: [mu0, mu1, mu2, mu3, mu4],
             left: nets[h.face()].first_inner_row::<7>(local_edge(h)),
             right,

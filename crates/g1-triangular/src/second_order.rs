@@ -1,8 +1,8 @@
 //! Where second-order data come from.
 
-use basemesh::{VertexId, VertexMap};
-use bezier_core::SurfaceJet;
+use basemesh::{EdgeId, VertexId, VertexMap};
 use bezier_core::glam::DVec3;
+use bezier_core::{QuarticCurve, SurfaceJet};
 
 /// Position, unit normal and second fundamental form at the vertices of a mesh.
 ///
@@ -13,6 +13,13 @@ pub trait SecondOrderData: Sync {
     ///
     /// The returned position must be `position`.
     fn surface_jet(&self, vertex: VertexId, position: DVec3) -> Option<SurfaceJet>;
+
+    /// The curve of an edge along its canonical half-edge, where that is given: on a boundary that
+    /// another surface shares. Its end tangents must be across the normals.
+    fn given_curve(&self, edge: EdgeId) -> Option<QuarticCurve> {
+        let _ = edge;
+        None
+    }
 }
 
 impl SecondOrderData for VertexMap<SurfaceJet> {

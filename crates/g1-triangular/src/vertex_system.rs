@@ -12,6 +12,9 @@
 //! the curves share one second fundamental form, and gives the patches that form.
 //! Tangential parts: `μ1` drops out across `d_i`, leaving one equation per spoke; the twists of the
 //! positional patches are corrected by the smallest solution.
+//!
+//! At a boundary, the first and the last spoke have no condition. They need not share the second
+//! fundamental form either: in the condition along a spoke only its own curve is differentiated twice.
 
 use basemesh::{HalfedgeId, HalfedgeMap, TriMesh, VertexMap};
 use bezier_core::SurfaceJet;
@@ -29,7 +32,7 @@ const DEPENDENT: f64 = 1e-12;
 /// What a vertex decides for one of its outgoing half-edges.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SpokeSolution {
-    /// Second coefficient of `μ` along the half-edge.
+    /// Second coefficient of `μ` along the half-edge; zero on a boundary.
     pub(crate) mu1: f64,
     /// Twist point of the half-edge's face at its origin, in world coordinates.
     pub(crate) twist: DVec3,
@@ -41,13 +44,13 @@ pub(crate) fn solve_vertices(
     mesh: &TriMesh,
     jets: &VertexMap<SurfaceJet>,
     network: &CurveNetwork,
-    weights: &HalfedgeMap<OriginWeights>,
+    weights: &HalfedgeMap<Option<OriginWeights>>,
     initial: &(dyn Fn(HalfedgeId) -> DVec3 + Sync),
 ) -> Result<HalfedgeMap<SpokeSolution>, JoinError> {
     let topology = mesh.topology();
     let solutions = VertexMap::try_from_fn(topology.vertex_count(), |vertex| {
         let spokes = spokes(mesh, network, vertex);
-        let rows = rows(mesh, weights, &spokes)?;
+        let rows = rows(mesh, weights, &spokes);
         let twists = twists(&jets[vertex], &spokes, &rows, mesh.position(vertex), initial);
         twists
             .map(|twists| spoke_solutions(mesh.position(vertex), &spokes, &rows, &twists))
@@ -70,39 +73,46 @@ impl Row {
     }
 }
 
+/// One condition per spoke; `None` on a boundary.
 fn rows(
     mesh: &TriMesh,
-    weights: &HalfedgeMap<OriginWeights>,
+    weights: &HalfedgeMap<Option<OriginWeights>>,
     spokes: &[Spoke],
-) -> Result<Vec<Row>, JoinError> {
-    let topology = mesh.topology();
+) -> Vec<Option<Row>> {
     let n = spokes.len();
-    (0..n)
-        .map(|i| {
-            let spoke = &spokes[i];
-            let (next, previous) = (&spokes[(i + 1) % n], &spokes[(i + n - 1) % n]);
-            let twin = topology.twin(spoke.halfedge).ok_or_else(|| JoinError::OpenSurface {
-                edge: topology.edge(spoke.halfedge).index(),
-            })?;
-            let OriginWeights { lambda0, mu0 } = weights[spoke.halfedge];
-            let lambda1 = 1.0 - weights[twin].lambda0;
-            let rest = (spoke.first * (1.0 - mu0) + spoke.second * mu0) * 3.0
-                - (next.elevated() * (1.0 - lambda1) + previous.elevated() * lambda1);
-            Ok(Row { lambda0, rest })
-        })
-        .collect()
+    let row = |i: usize| {
+        let spoke = &spokes[i];
+        let twin = mesh.topology().twin(spoke.halfedge)?;
+        let OriginWeights { lambda0, mu0 } = weights[spoke.halfedge]?;
+        let lambda1 = 1.0 - weights[twin]?.lambda0;
+        let (next, previous) = (&spokes[(i + 1) % n], &spokes[before(i, n)]);
+        let rest = (spoke.first * (1.0 - mu0) + spoke.second * mu0) * 3.0
+            - (next.elevated() * (1.0 - lambda1) + previous.elevated() * lambda1);
+        Some(Row { lambda0, rest })
+    };
+    (0..n).map(row).collect()
 }
 
-/// Twist points relative to the vertex, one per spoke.
+/// The one before, around.
+fn before(i: usize, n: usize) -> usize {
+    (i + n - 1) % n
+}
+
+/// Twist points relative to the vertex, one per face: between spokes `i` and `i + 1`.
 fn twists(
     jet: &SurfaceJet,
     spokes: &[Spoke],
-    rows: &[Row],
+    rows: &[Option<Row>],
     origin: DVec3,
     initial: &(dyn Fn(HalfedgeId) -> DVec3 + Sync),
 ) -> Option<Vec<DVec3>> {
     let n = spokes.len();
-    let start: Vec<DVec3> = (0..n)
+    let faces = if rows.iter().all(Option::is_some) { n } else { n - 1 };
+    if rows.iter().all(Option::is_none) {
+        // one face alone: nothing to meet
+        return Some((0..faces).map(|i| initial(spokes[i].halfedge) - origin).collect());
+    }
+    let start: Vec<DVec3> = (0..faces)
         .map(|i| {
             let tangential = jet.tangential(initial(spokes[i].halfedge) - origin);
             let bend = jet.second_form(spokes[i].elevated(), spokes[(i + 1) % n].elevated());
@@ -116,7 +126,7 @@ fn twists(
 fn tangential_correction(
     normal: DVec3,
     spokes: &[Spoke],
-    rows: &[Row],
+    rows: &[Option<Row>],
     mut twists: Vec<DVec3>,
 ) -> Option<Vec<DVec3>> {
     let n = spokes.len();
@@ -124,32 +134,47 @@ fn tangential_correction(
         .iter()
         .map(|spoke| normal.cross(spoke.first).try_normalize())
         .collect::<Option<_>>()?;
-    // A Aᵀ: spoke i touches the twists i and i - 1
-    let mut gram = DMatrix::<f64>::zeros(n, n);
-    for i in 0..n {
-        let previous = (i + n - 1) % n;
-        let lambda = rows[i].lambda0;
-        gram[(i, i)] += 36.0 * ((1.0 - lambda).powi(2) + lambda.powi(2));
-        let coupling =
-            36.0 * lambda * (1.0 - rows[previous].lambda0) * across[i].dot(across[previous]);
-        gram[(i, previous)] += coupling;
-        gram[(previous, i)] += coupling;
-    }
-    let solver = GramSolver::new(gram)?;
+    let solver = GramSolver::new(gram(rows, &across))?;
     // the second round removes the round-off of the first
     for _ in 0..2 {
         let defect = DVector::from_fn(n, |i, _| {
-            let lhs = rows[i].apply(twists[i], twists[(i + n - 1) % n]);
-            across[i].dot(rows[i].rest - lhs)
+            rows[i].as_ref().map_or(0.0, |row| {
+                across[i].dot(row.rest - row.apply(twists[i], twists[before(i, n)]))
+            })
         });
         let multipliers = solver.solve(&defect)?;
-        for i in 0..n {
+        for (i, twist) in twists.iter_mut().enumerate() {
             let next = (i + 1) % n;
-            twists[i] += across[i] * (6.0 * (1.0 - rows[i].lambda0) * multipliers[i])
-                + across[next] * (6.0 * rows[next].lambda0 * multipliers[next]);
+            if let Some(row) = &rows[i] {
+                *twist += across[i] * (6.0 * (1.0 - row.lambda0) * multipliers[i]);
+            }
+            if let Some(row) = &rows[next] {
+                *twist += across[next] * (6.0 * row.lambda0 * multipliers[next]);
+            }
         }
     }
     twists.iter().all(|t| t.is_finite()).then_some(twists)
+}
+
+/// `A Aᵀ`: the condition of spoke `i` touches the twists `i` and `i - 1`. Without a condition, a row of
+/// its own.
+fn gram(rows: &[Option<Row>], across: &[DVec3]) -> DMatrix<f64> {
+    let n = rows.len();
+    let mut gram = DMatrix::<f64>::zeros(n, n);
+    for (i, row) in rows.iter().enumerate() {
+        let Some(Row { lambda0: lambda, .. }) = row else {
+            gram[(i, i)] = 36.0;
+            continue;
+        };
+        let previous = before(i, n);
+        gram[(i, i)] += 36.0 * ((1.0 - lambda).powi(2) + lambda.powi(2));
+        if let Some(other) = &rows[previous] {
+            let coupling = 36.0 * lambda * (1.0 - other.lambda0) * across[i].dot(across[previous]);
+            gram[(i, previous)] += coupling;
+            gram[(previous, i)] += coupling;
+        }
+    }
+    gram
 }
 
 /// Factorised symmetric positive matrix, or its pseudo-inverse where it is not definite.
@@ -183,18 +208,19 @@ impl GramSolver {
 fn spoke_solutions(
     origin: DVec3,
     spokes: &[Spoke],
-    rows: &[Row],
+    rows: &[Option<Row>],
     twists: &[DVec3],
 ) -> Vec<(HalfedgeId, SpokeSolution)> {
     let n = spokes.len();
-    (0..n)
-        .map(|i| {
-            let lhs = rows[i].apply(twists[i], twists[(i + n - 1) % n]);
+    let solution = |(i, twist): (usize, &DVec3)| {
+        let mu1 = rows[i].as_ref().map_or(0.0, |row| {
+            let lhs = row.apply(*twist, twists[before(i, n)]);
             let d = spokes[i].first;
-            let mu1 = (lhs - rows[i].rest).dot(d) / (4.0 * d.length_squared());
-            (spokes[i].halfedge, SpokeSolution { mu1, twist: origin + twists[i] })
-        })
-        .collect()
+            (lhs - row.rest).dot(d) / (4.0 * d.length_squared())
+        });
+        (spokes[i].halfedge, SpokeSolution { mu1, twist: origin + *twist })
+    };
+    twists.iter().enumerate().map(solution).collect()
 }
 
 fn scatter(

@@ -34,9 +34,13 @@ pub struct EdgeWeights {
     pub mu: [f64; 5],
 }
 
-/// An outgoing half-edge seen from its origin `o`: all vectors relative to `o`.
+/// Weights of an edge on a boundary, where no smoothness condition holds.
+pub(crate) const NO_WEIGHTS: EdgeWeights = EdgeWeights { lambda: [0.0; 2], mu: [0.0; 5] };
+
+/// An edge seen from one of its ends `o`: all vectors relative to `o`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spoke {
+    /// The half-edge that leaves `o`; for the last spoke at a boundary the one that arrives.
     pub(crate) halfedge: HalfedgeId,
     /// `q1 - o`.
     pub(crate) first: DVec3,
@@ -45,9 +49,22 @@ pub(crate) struct Spoke {
 }
 
 impl Spoke {
-    fn new(mesh: &TriMesh, network: &CurveNetwork, halfedge: HalfedgeId) -> Self {
+    fn leaving(mesh: &TriMesh, network: &CurveNetwork, halfedge: HalfedgeId) -> Self {
         let q = network.along(mesh.topology(), halfedge).points;
         Self { halfedge, first: q[1] - q[0], second: q[2] - q[0] }
+    }
+
+    fn arriving(mesh: &TriMesh, network: &CurveNetwork, halfedge: HalfedgeId) -> Self {
+        let q = network.along(mesh.topology(), halfedge).points;
+        Self { halfedge, first: q[3] - q[4], second: q[2] - q[4] }
+    }
+
+    /// The spoke that follows the half-edge `h`, which leaves the vertex.
+    fn after(mesh: &TriMesh, network: &CurveNetwork, h: HalfedgeId) -> Self {
+        match mesh.topology().rotated_ccw(h) {
+            Some(next) => Self::leaving(mesh, network, next),
+            None => Self::arriving(mesh, network, h.previous()),
+        }
     }
 
     /// First control point of the elevated curve, relative to `o`.
@@ -56,31 +73,40 @@ impl Spoke {
     }
 }
 
-/// The spokes of a vertex, counter-clockwise.
+/// The spokes of a vertex, counter-clockwise: one per face, and at a boundary one more.
 pub(crate) fn spokes(mesh: &TriMesh, network: &CurveNetwork, vertex: VertexId) -> Vec<Spoke> {
-    mesh.topology().fan(vertex).map(|h| Spoke::new(mesh, network, h)).collect()
+    let topology = mesh.topology();
+    let mut spokes: Vec<Spoke> =
+        topology.fan(vertex).map(|h| Spoke::leaving(mesh, network, h)).collect();
+    if let Some(last) = spokes.last().map(|spoke| spoke.halfedge)
+        && topology.is_boundary_vertex(vertex)
+    {
+        spokes.push(Spoke::arriving(mesh, network, last.previous()));
+    }
+    spokes
 }
 
 /// `λ0` and `μ0` of every half-edge from the first conditions, rows 0 and 7 of [TK09 (3)]:
-/// `(1 - λ0) p0 + λ0 r0 = μ0 (q1 - o)` with `p0`, `r0` the neighbours' first control points.
+/// `(1 - λ0) p0 + λ0 r0 = μ0 (q1 - o)` with `p0`, `r0` the neighbours' first control points. `None` on
+/// a boundary.
 ///
 /// # Errors
 ///
-/// [`JoinError::OpenSurface`], or [`JoinError::DegenerateFan`] where neighbouring curves leave a
-/// vertex in directions that do not determine the weights.
+/// [`JoinError::DegenerateFan`] where neighbouring curves leave a vertex in directions that do not
+/// determine the weights.
 pub(crate) fn origin_weights(
     mesh: &TriMesh,
     jets: &VertexMap<SurfaceJet>,
     network: &CurveNetwork,
-) -> Result<HalfedgeMap<OriginWeights>, JoinError> {
+) -> Result<HalfedgeMap<Option<OriginWeights>>, JoinError> {
     let topology = mesh.topology();
     HalfedgeMap::try_from_fn(topology.halfedge_count(), |h| {
-        let open = || JoinError::OpenSurface { edge: topology.edge(h).index() };
-        let ccw = topology.rotated_ccw(h).ok_or_else(open)?;
-        let cw = topology.rotated_cw(h).ok_or_else(open)?;
+        let Some(cw) = topology.rotated_cw(h) else { return Ok(None) };
         let vertex = topology.origin(h);
-        let [left, along, right] = [ccw, h, cw].map(|h| Spoke::new(mesh, network, h));
+        let left = Spoke::after(mesh, network, h);
+        let [along, right] = [h, cw].map(|h| Spoke::leaving(mesh, network, h));
         from_directions(jets[vertex].normal, &left, &along, &right)
+            .map(Some)
             .ok_or(JoinError::DegenerateFan { vertex: vertex.index() })
     })
 }

@@ -23,9 +23,9 @@ pub enum JetError {
         /// Its position.
         at: DVec3,
     },
-    /// The neighbours of a vertex do not determine a quadric.
-    #[error("the neighbours of vertex {vertex}, {at}, do not determine its curvature")]
-    TooFewNeighbours {
+    /// Distances around a vertex are too large or too small for numbers.
+    #[error("the distances of the neighbours of vertex {vertex}, {at}, are not finite numbers")]
+    NotFinite {
         /// The vertex.
         vertex: usize,
         /// Its position.

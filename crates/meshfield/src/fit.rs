@@ -11,6 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::JetError;
 use crate::jet::{FitQuality, VertexJet};
+use crate::plain::plain_jet;
 use crate::polynomial::{Polynomial, coefficient_count};
 use crate::rings::{Neighbours, neighbours};
 use crate::settings::JetSettings;
@@ -32,7 +33,8 @@ pub fn fit_jets(mesh: &TriMesh, settings: &JetSettings) -> Result<VertexMap<Vert
     })?;
     VertexMap::try_from_fn(count, |v| {
         fit_jet(mesh, &normals, v, settings)
-            .ok_or(JetError::TooFewNeighbours { vertex: v.index(), at: mesh.position(v) })
+            .or_else(|| plain_jet(mesh, &normals, v))
+            .ok_or(JetError::NotFinite { vertex: v.index(), at: mesh.position(v) })
     })
 }
 
@@ -52,7 +54,8 @@ fn face_normal(mesh: &TriMesh, vertex: VertexId) -> Option<DVec3> {
     normal.try_normalize()
 }
 
-/// The highest degree, up to that of the settings, that the neighbours determine.
+/// The highest degree, up to that of the settings, that the neighbours determine; `None` if not even a
+/// quadric agrees with the faces.
 fn fit_jet(
     mesh: &TriMesh,
     normals: &VertexMap<DVec3>,
@@ -87,7 +90,8 @@ fn fit_jet(
         }
         let mut jet = jet?;
         jet.quality.normal_error = normal_error(mesh, normals, vertex, &jet);
-        let is_resolved = degree == 2 || jet.quality.normal_error <= settings.max_normal_error;
+        let most = if degree == 2 { settings.max_quadric_error } else { settings.max_normal_error };
+        let is_resolved = jet.quality.normal_error <= most;
         (is_resolved && jet.quality.condition <= settings.max_condition).then_some(jet)
     })
 }

@@ -1,7 +1,7 @@
 //! The surface near one vertex: a polynomial over a tangent plane.
 
 use bezier_core::{PatchJet, SurfaceJet};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use implicit::Number;
 
 use crate::polynomial::Polynomial;
@@ -10,7 +10,8 @@ use crate::polynomial::Polynomial;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FitQuality {
-    /// Degree of the polynomial.
+    /// Degree of the polynomial; 1 where no polynomial agrees with the faces: then the normal is their
+    /// mean, and the curvatures are those that the normals along edges show.
     pub degree: usize,
     /// Points that were used.
     pub points: usize,
@@ -60,6 +61,14 @@ impl VertexJet {
             dvv: z * (2.0 * c(0, 2) * bend),
         }
         .surface_jet()
+    }
+
+    /// The same polynomial turned about its vertex, so that its unit normal there is this one.
+    #[must_use]
+    pub fn turned_to(&self, normal: DVec3) -> Option<Self> {
+        let turn = DQuat::from_rotation_arc(self.surface_jet()?.normal, normal);
+        let axes = self.axes.map(|axis| turn * axis);
+        axes.iter().all(|axis| axis.is_finite()).then_some(Self { axes, ..*self })
     }
 
     /// Unit normal of the polynomial under or over a point.

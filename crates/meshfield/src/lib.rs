@@ -2,10 +2,12 @@
 
 mod blend;
 mod creases;
+mod cut;
 mod error;
 mod field;
 mod fit;
 mod jet;
+mod plain;
 mod polynomial;
 mod rings;
 mod settings;
@@ -15,6 +17,7 @@ mod tree;
 pub use basemesh;
 pub use bezier_core;
 pub use creases::{SharpEdges, sharp_edges};
+pub use cut::{CutMesh, cut_open};
 pub use error::JetError;
 pub use field::MeshField;
 pub use fit::fit_jets;

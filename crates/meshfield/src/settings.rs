@@ -24,6 +24,9 @@ pub struct JetSettings {
     /// normal of the faces there, the mesh does not resolve the surface, and a lower degree is taken.
     /// Unit: radians; default 20°.
     pub max_normal_error: f64,
+    /// The same for polynomials of degree 2: beyond, the jet is of degree 1, with the mean normal of the
+    /// faces and the curvatures that the normals along edges show. Default 35°.
+    pub max_quadric_error: f64,
     /// Largest condition number of the scaled equations; a lower degree is taken beyond. Default 1e3.
     pub max_condition: f64,
 }
@@ -37,6 +40,7 @@ impl Default for JetSettings {
             max_turning: 75_f64.to_radians(),
             max_far_turning: 50_f64.to_radians(),
             max_normal_error: 20_f64.to_radians(),
+            max_quadric_error: 35_f64.to_radians(),
             max_condition: 1e3,
         }
     }

@@ -70,9 +70,12 @@ impl TriangleTree {
         }
         let mut best: Option<ClosestPoint> = None;
         let mut limit = f64::INFINITY;
-        let mut open = Vec::with_capacity(64);
-        open.push((0.0, 0_u32));
-        while let Some((square, at)) = open.pop() {
+        // halving leaves no more open boxes than there are bits in a number, and one
+        let mut open = [(0.0, 0_u32); 34];
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let (square, at) = open[count];
             // boxes as near up to rounding may hold a lower number
             if square > limit * (1.0 + ROUNDING) {
                 continue;
@@ -100,7 +103,8 @@ impl TriangleTree {
                     let children = [at + 1, second].map(|c| (self.square_distance(c, p), c));
                     let [near, far] = children;
                     let sorted = if near.0 <= far.0 { [far, near] } else { [near, far] };
-                    open.extend(sorted);
+                    open[count..count + 2].copy_from_slice(&sorted);
+                    count += 2;
                 }
             }
         }

@@ -4,10 +4,13 @@ use basemesh::glam::DVec3;
 use basemesh::{FaceId, FaceMap, Foot, SurfaceTarget, TriMesh, VertexMap};
 use bezier_core::{MultiIndex, SepticTriangle, SurfaceJet};
 
-use crate::measure::on_grid;
+use crate::measure::sampled;
 
-/// Patches whose normal is at 90° or more to the surface's, at the points where the deviation is
-/// measured.
+/// Divisions of the grid where folds are looked for: small ones hide at corners and edges.
+const FINE: usize = 64;
+
+/// Patches whose normal is at 90° or more to the surface's, on a grid four times as fine as that of the
+/// deviation.
 ///
 /// Feet are needed only where the patch normal is far from the normals at the corners.
 pub(crate) fn find_folds(
@@ -28,16 +31,17 @@ fn is_folded(net: &SepticTriangle, corners: [DVec3; 3], target: &dyn SurfaceTarg
     if cone.is_some_and(|cone| cone.contains_all_normals(net)) {
         return false;
     }
-    let (points, normals) = on_grid(net);
-    if cone.is_some_and(|cone| normals.iter().all(|&normal| cone.contains(normal))) {
-        return false;
-    }
+    // feet only where the normal alone does not tell
+    let is_open = |normal: DVec3| cone.is_none_or(|cone| !cone.contains(normal));
+    let (points, normals) = sampled(net, FINE);
+    let open: Vec<usize> = (0..points.len()).filter(|&i| is_open(normals[i])).collect();
+    let points: Vec<DVec3> = open.iter().map(|&i| points[i]).collect();
     let mut feet: Vec<Option<Foot>> = vec![None; points.len()];
     target.feet(&points, &mut feet);
-    let stands = |(normal, foot): (&DVec3, Option<Foot>)| {
-        foot.is_some_and(|foot| normal.dot(foot.normal) > 0.0)
+    let stands = |(&i, foot): (&usize, Option<Foot>)| {
+        foot.is_some_and(|foot| normals[i].dot(foot.normal) > 0.0)
     };
-    !normals.iter().zip(feet).all(stands)
+    !open.iter().zip(feet).all(stands)
 }
 
 /// Directions so close to the mean of the normals at the corners that the surface's normals, which

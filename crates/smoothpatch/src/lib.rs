@@ -3,7 +3,10 @@
 pub mod measure;
 
 mod adapt;
+mod again;
+mod agreement;
 pub mod apatch_surface;
+mod assembly;
 mod error;
 mod folds;
 mod memory;
@@ -42,7 +45,7 @@ pub use pipeline::{fit, fit_base_mesh, fit_dense_mesh, fit_source};
 pub use progress::{Progress, Silent, Stage, StageTimes};
 pub use region::find_region;
 pub use render;
-pub use report::{BaseMeshReport, Report, report};
+pub use report::{BaseMeshReport, Report, report, report_sharp};
 pub use settings::{BaseMeshSettings, Method, SecondForms, Settings};
 pub use source::{FieldSource, FitSource};
-pub use surface::{BaseMeshOrigin, CurveSummary, G1Surface, Polygonized};
+pub use surface::{BaseMeshOrigin, CurveSummary, G1Surface, Polygonized, Rim};

@@ -6,7 +6,9 @@ mod deviation;
 mod interpolation;
 
 pub use certify::{Certificate, USUAL_CUTS, certify};
-pub use continuity::{Continuity, SEAM_SAMPLES, continuity, seam};
+pub use continuity::{Continuity, SEAM_SAMPLES, continuity, continuity_beside, seam};
 pub use deviation::{Deviation, FaceDeviation, GRID, deviation, deviation_on_grid, folded_patches};
-pub(crate) use deviation::{PatchSamples, deviation_of, face_deviations, on_grid, settle};
+pub(crate) use deviation::{
+    PatchSamples, deviation_by, deviation_of, face_deviations, sampled, settle,
+};
 pub use interpolation::{Interpolation, interpolation};

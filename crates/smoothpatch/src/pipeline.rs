@@ -6,11 +6,15 @@ use basemesh::{
     polygonize_to_faces, simplify,
 };
 use bezier_core::SurfaceJet;
-use g1_triangular::{CurveNetwork, SmoothPatches, fill_reusing, join_reusing};
-use hermite_sqp::{CurveFoot, CurveRefinement, CurveSample, EdgeOutcome, EdgeProblem};
+use g1_triangular::{
+    CurveNetwork, Earlier, Nothing, PositionalPatches, SmoothPatches, fill_reusing, join_reusing,
+};
+use hermite_sqp::{CurveFoot, CurveRefinement, CurveSample, EdgeOutcome, EdgeProblem, EdgeStatus};
 use implicit::{Aabb, ImplicitSurface};
 
 use crate::adapt::equalise;
+use crate::again::Unchanged;
+use crate::agreement::{agreeing, contradicted};
 use crate::error::FitError;
 use crate::folds::find_folds;
 use crate::measure::{FaceDeviation, face_deviations};
@@ -18,7 +22,7 @@ use crate::memory::{Keys, Memory, Recall};
 use crate::objectives::Objectives;
 use crate::progress::{Clock, Progress, Stage, StageTimes};
 use crate::reconcile::reconciled;
-use crate::repair::{edges_to_split, refine};
+use crate::repair::{self, edges_to_split, refine};
 use crate::settings::{SecondForms, Settings};
 use crate::source::{FieldSource, FitSource};
 use crate::surface::{BaseMeshOrigin, G1Surface, Polygonized};
@@ -139,9 +143,47 @@ pub(crate) fn needs_repair(surface: &G1Surface, source: &dyn FitSource) -> bool 
         || !find_folds(mesh, jets, &patches.nets, source).is_empty()
 }
 
+/// Rounds that refine a mesh of estimated data where patches still fold.
+const FOLD_ROUNDS: usize = 2;
+
 /// Curves, then patches, then smooth patches; with local refinement of the mesh where its curves
-/// show that it does not resolve the surface.
+/// show that it does not resolve the surface, and, for estimated data, where patches still fold.
 pub(crate) fn fit_mesh(
+    mesh: TriMesh,
+    source: &dyn FitSource,
+    settings: &Settings,
+    repair_rounds: usize,
+    clock: &mut Clock<'_>,
+) -> Result<G1Surface, FitError> {
+    let folds = |surface: &G1Surface| {
+        find_folds(&surface.mesh, &surface.jets, &surface.patches.nets, source)
+    };
+    let mut best = fit_mesh_once(mesh, source, settings, repair_rounds, clock)?;
+    if repair_rounds == 0 || settings.second_forms == SecondForms::Given {
+        return Ok(best);
+    }
+    let mut left = folds(&best);
+    let mut refined = repair::edges_of_folds(&best.mesh, &best.jets, &left);
+    let mut mesh = best.mesh.clone();
+    for _ in 0..FOLD_ROUNDS {
+        if left.is_empty() {
+            break;
+        }
+        let split = clock.run(Stage::Simplify, refined.len(), || refine(&mesh, source, &refined));
+        // no surface near an edge: what cannot be mended is reported
+        let Ok(split) = split else { break };
+        let next = fit_mesh_once(split, source, settings, repair_rounds, clock)?;
+        let folded = folds(&next);
+        refined = repair::edges_of_folds(&next.mesh, &next.jets, &folded);
+        mesh = next.mesh.clone();
+        if folded.len() < left.len() {
+            (best, left) = (next, folded);
+        }
+    }
+    Ok(best)
+}
+
+fn fit_mesh_once(
     mut mesh: TriMesh,
     source: &dyn FitSource,
     settings: &Settings,
@@ -152,8 +194,10 @@ pub(crate) fn fit_mesh(
         let vertices = mesh.topology().vertex_count();
         let jets = clock.run(Stage::Vertices, vertices, || vertex_jets(&mesh, source, settings))?;
         let edges = mesh.topology().edge_count();
-        let curves =
-            clock.run(Stage::Curves, edges, || fit_curves(&mesh, &jets, source, settings))?;
+        let (jets, curves) = clock.run(Stage::Curves, edges, || {
+            let curves = fit_curves(&mesh, &jets, source, settings)?;
+            reconcile_curves(&mesh, jets, curves, source, settings)
+        })?;
         let unresolved = edges_to_split(&mesh, &jets, &curves);
         if unresolved.is_empty() || repair_rounds == 0 {
             break (jets, curves);
@@ -168,13 +212,24 @@ pub(crate) fn fit_mesh(
         }
     };
     let mut objectives = Objectives::uniform(mesh.topology(), settings);
-    let mut fitted = fit_patches(&mesh, &jets, curves, source, &objectives, clock)?;
+    let mut fitted = fit_patches(&mesh, &jets, curves, source, &objectives, &Nothing, clock)?;
     // a patch that folds over is made again, step by step closer to the published method
-    while retreat(&mesh, &jets, &fitted, source, &mut objectives) {
+    loop {
+        let before = objectives.patches.clone();
+        if !retreat(&mesh, &jets, &fitted, source, &mut objectives) {
+            break;
+        }
         let curves = clock.run(Stage::Curves, 0, || {
-            refit_curves(&mesh, &jets, fitted.curves, source, settings, &objectives)
+            refit_curves(&mesh, &jets, &fitted.curves, source, settings, &objectives)
         })?;
-        fitted = fit_patches(&mesh, &jets, curves, source, &objectives, clock)?;
+        let unchanged = Unchanged::new(
+            &mesh,
+            [&fitted.curves, &curves],
+            [&before, &objectives.patches],
+            &fitted.positional,
+            &fitted.patches,
+        );
+        fitted = fit_patches(&mesh, &jets, curves, source, &objectives, &unchanged, clock)?;
     }
     Ok(surface(mesh, jets, fitted, objectives))
 }
@@ -219,8 +274,7 @@ pub(crate) fn fit_again(
         face_deviations(&patches.nets, source, |face| recall.deviation(face))
     });
     *memory = Memory::of(&keys, &curves, &positional, &patches, &deviations);
-    let failed_feet = positional.failed_feet;
-    let fitted = Fitted { curves, network, failed_feet, patches };
+    let fitted = Fitted { curves, network, positional, patches };
     Ok((surface(mesh, jets, fitted, objectives), deviations))
 }
 
@@ -230,7 +284,8 @@ fn surface(
     fitted: Fitted,
     objectives: Objectives,
 ) -> G1Surface {
-    let Fitted { curves, network, failed_feet, patches } = fitted;
+    let Fitted { curves, network, positional, patches } = fitted;
+    let failed_feet = positional.failed_feet;
     G1Surface {
         mesh,
         jets,
@@ -241,6 +296,7 @@ fn surface(
         retreats: objectives.retreats,
         origin: BaseMeshOrigin::default(),
         times: StageTimes::default(),
+        rim: None,
     }
 }
 
@@ -248,7 +304,7 @@ fn surface(
 struct Fitted {
     curves: EdgeMap<EdgeOutcome>,
     network: CurveNetwork,
-    failed_feet: FaceMap<usize>,
+    positional: PositionalPatches,
     patches: SmoothPatches,
 }
 
@@ -259,18 +315,18 @@ fn fit_patches(
     curves: EdgeMap<EdgeOutcome>,
     source: &dyn FitSource,
     objectives: &Objectives,
+    earlier: &dyn Earlier,
     clock: &mut Clock<'_>,
 ) -> Result<Fitted, FitError> {
     let network = CurveNetwork::new(curves.map(|_, outcome| outcome.curve));
     let faces = mesh.topology().face_count();
     let plan = &objectives.patches;
     let positional =
-        clock.run(Stage::Fill, faces, || g1_triangular::fill(mesh, &network, source, plan));
-    let failed_feet = positional.failed_feet;
+        clock.run(Stage::Fill, faces, || fill_reusing(mesh, &network, source, plan, earlier));
     let patches = clock.run(Stage::Join, faces, || {
-        g1_triangular::join(mesh, jets, &network, positional.nets, source, plan)
+        join_reusing(mesh, jets, &network, positional.nets.clone(), source, plan, earlier)
     })?;
-    Ok(Fitted { curves, network, failed_feet, patches })
+    Ok(Fitted { curves, network, positional, patches })
 }
 
 /// Takes the objectives of folded patches back; `false` if no patch folds that could be helped.
@@ -298,8 +354,47 @@ fn vertex_jets(
     })?;
     Ok(match settings.second_forms {
         SecondForms::Given => jets,
-        SecondForms::AgreeAlongEdges => reconciled(mesh, &jets),
+        SecondForms::AgreeAlongEdges => {
+            let emphasis = EdgeMap::from_vec(vec![1.0; mesh.topology().edge_count()]);
+            agreeing(mesh, &reconciled(mesh, &jets), &emphasis)
+        }
     })
+}
+
+/// How often, and how much more edges count whose curves contradict the forms at their ends.
+const EMPHASES: usize = 3;
+const EMPHASIS: f64 = 30.0;
+
+/// Forms may change further where curves cannot meet them; the curves around are then fitted again.
+fn reconcile_curves(
+    mesh: &TriMesh,
+    mut jets: VertexMap<SurfaceJet>,
+    mut curves: EdgeMap<EdgeOutcome>,
+    source: &dyn FitSource,
+    settings: &Settings,
+) -> Result<(VertexMap<SurfaceJet>, EdgeMap<EdgeOutcome>), FitError> {
+    if settings.second_forms == SecondForms::Given {
+        return Ok((jets, curves));
+    }
+    let topology = mesh.topology();
+    let mut emphasis = EdgeMap::from_vec(vec![1.0; topology.edge_count()]);
+    for _ in 0..EMPHASES {
+        let missed = contradicted(mesh, &jets, &curves);
+        if missed.is_empty() {
+            break;
+        }
+        missed.into_iter().for_each(|edge| emphasis[edge] *= EMPHASIS);
+        let changed = agreeing(mesh, &jets, &emphasis);
+        curves = EdgeMap::try_from_fn(curves.len(), |edge| {
+            let same = topology.edge_vertices(edge).iter().all(|&v| changed[v] == jets[v]);
+            if same {
+                return Ok(curves[edge]);
+            }
+            fit_curve(mesh, &changed, source, settings, edge, settings.curve_refinement)
+        })?;
+        jets = changed;
+    }
+    Ok((jets, curves))
 }
 
 /// One curve per edge, from its lower to its higher vertex.
@@ -318,7 +413,7 @@ fn fit_curves(
 fn refit_curves(
     mesh: &TriMesh,
     jets: &VertexMap<SurfaceJet>,
-    curves: EdgeMap<EdgeOutcome>,
+    curves: &EdgeMap<EdgeOutcome>,
     target: &dyn FitSource,
     settings: &Settings,
     objectives: &Objectives,
@@ -341,6 +436,10 @@ fn fit_curve(
     edge: EdgeId,
     refinement: CurveRefinement,
 ) -> Result<EdgeOutcome, FitError> {
+    if let Some(curve) = target.given_curve(edge) {
+        let status = EdgeStatus::Converged { iterations: 0, published_iterations: 0 };
+        return Ok(EdgeOutcome { curve, status });
+    }
     let [a, b] = mesh.topology().edge_vertices(edge);
     let samples = curve_samples(&jets[a], &jets[b], target, settings.curve_sections);
     let problem = EdgeProblem::new(&jets[a], &jets[b], &samples).map_err(|reason| {

@@ -89,7 +89,7 @@ impl StageTimes {
         self.0.iter().map(|(_, seconds)| seconds).sum()
     }
 
-    fn add(&mut self, stage: Stage, seconds: f64) {
+    pub(crate) fn add(&mut self, stage: Stage, seconds: f64) {
         match self.0.iter_mut().find(|(s, _)| *s == stage) {
             Some((_, sum)) => *sum += seconds,
             None => self.0.push((stage, seconds)),

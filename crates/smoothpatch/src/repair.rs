@@ -5,7 +5,10 @@
 //! than half a turn; and the curves must have end tangents of sensible lengths. At a vertex that
 //! fails, the edge whose normals turn most is split.
 
-use basemesh::{EdgeId, EdgeMap, SurfaceTarget, TriMesh, VertexMap, edge_turning, invalid_fans};
+use basemesh::{
+    EdgeId, EdgeMap, FaceId, SurfaceTarget, Topology, TriMesh, VertexMap, edge_turning,
+    invalid_fans,
+};
 use bezier_core::SurfaceJet;
 use hermite_sqp::EdgeOutcome;
 
@@ -35,6 +38,27 @@ pub(crate) fn edges_to_split(
             .filter(|(_, outcome)| outcome.status.is_fallback())
             .map(|(edge, _)| (edge_turning(mesh, &normals, edge), edge)),
     );
+    apart(topology, wanted)
+}
+
+/// The edges of folded patches along which the normals turn most, in id order; no two of them share a face.
+pub(crate) fn edges_of_folds(
+    mesh: &TriMesh,
+    jets: &VertexMap<SurfaceJet>,
+    folds: &[FaceId],
+) -> Vec<EdgeId> {
+    let topology = mesh.topology();
+    let normals = jets.map(|_, jet| jet.normal);
+    let turning = |edge: EdgeId| (edge_turning(mesh, &normals, edge), edge);
+    let most = |face: &FaceId| {
+        let edges = face.halfedges().map(|h| turning(topology.edge(h)));
+        edges.into_iter().max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))
+    };
+    apart(topology, folds.iter().filter_map(most).collect())
+}
+
+/// Edges without common faces, those that turn most first.
+fn apart(topology: &Topology, mut wanted: Vec<(f64, EdgeId)>) -> Vec<EdgeId> {
     wanted.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut touched = vec![false; topology.face_count()];
     let mut chosen = Vec::new();

@@ -1,16 +1,19 @@
 //! Everything measured about one result, for people and for programs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
-use basemesh::{MeshQuality, SurfaceTarget};
+use basemesh::{EdgeId, FaceId, MeshQuality, SurfaceTarget};
 use serde::{Deserialize, Serialize};
 
 use crate::adapt::Adaptation;
 use crate::measure::{
-    Continuity, Deviation, FaceDeviation, Interpolation, continuity, deviation, interpolation,
+    Continuity, Deviation, FaceDeviation, Interpolation, continuity_beside, deviation_by,
+    interpolation,
 };
+use crate::mesh_surface::SharpMesh;
 use crate::objectives::Retreat;
 use crate::progress::{Clock, Progress, Stage};
+use crate::settings::Settings;
 use crate::surface::G1Surface;
 
 /// The measured qualities of a surface and how it came about.
@@ -66,13 +69,35 @@ pub fn report(
     target: &dyn SurfaceTarget,
     progress: &mut dyn Progress,
 ) -> (Report, basemesh::FaceMap<FaceDeviation>) {
+    report_by(surface, &|_| target, progress)
+}
+
+/// [`report`] of a surface over a mesh with sharp edges, each piece against its own smooth surface.
+#[must_use]
+pub fn report_sharp(
+    surface: &G1Surface,
+    mesh: &SharpMesh,
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> (Report, basemesh::FaceMap<FaceDeviation>) {
+    let sources = mesh.sources(settings.projection);
+    report_by(surface, &|face| &sources[mesh.piece_of(face)], progress)
+}
+
+fn report_by<'t>(
+    surface: &G1Surface,
+    targets: &(dyn (Fn(FaceId) -> &'t dyn SurfaceTarget) + Sync),
+    progress: &mut dyn Progress,
+) -> (Report, basemesh::FaceMap<FaceDeviation>) {
     let mut clock = Clock::new(progress);
-    let topology = surface.mesh.topology();
+    let topology = surface.whole().topology();
     let nets = &surface.patches.nets;
+    let creases: HashSet<EdgeId> =
+        surface.rim.iter().flat_map(|rim| rim.creases.iter().copied()).collect();
     let (mut report, faces) = clock.run(Stage::Measure, topology.face_count(), || {
-        let (deviation, faces) = deviation(nets, target, surface.mesh.diagonal());
+        let (deviation, faces) = deviation_by(nets, targets, surface.mesh.diagonal());
         let report = Report {
-            continuity: continuity(topology, nets),
+            continuity: continuity_beside(topology, nets, &|edge, _| creases.contains(&edge)),
             row_residual: surface.max_row_residual(),
             deviation,
             interpolation: interpolation(surface),

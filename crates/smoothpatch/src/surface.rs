@@ -1,8 +1,8 @@
 //! The result of the pipeline.
 
 use basemesh::{
-    EdgeMap, FaceMap, Polygonization, SimplifyReport, SurfaceTarget, TopologyCount, TriMesh,
-    VertexMap,
+    EdgeId, EdgeMap, FaceMap, Polygonization, SimplifyReport, SurfaceTarget, TopologyCount,
+    TriMesh, VertexMap,
 };
 use bezier_core::{SepticTriangle, SurfaceJet};
 use g1_triangular::{CurveNetwork, Plan, SmoothPatches, fill};
@@ -34,6 +34,21 @@ pub struct G1Surface {
     pub origin: BaseMeshOrigin,
     /// Seconds per stage.
     pub times: StageTimes,
+    /// Where the surface is not smooth; `None` for a closed smooth one.
+    pub rim: Option<Rim>,
+}
+
+/// The edges of a surface along which it is not smooth. The base mesh is cut open along them.
+#[derive(Clone, Debug)]
+pub struct Rim {
+    /// The base mesh before it was cut; the same faces.
+    pub whole: TriMesh,
+    /// Edges of the whole mesh where two patches meet without a common tangent plane.
+    pub creases: Vec<EdgeId>,
+    /// Edges with one patch.
+    pub boundary: Vec<EdgeId>,
+    /// Sharp edges of the mesh that were made smooth: single ones, among smooth ones only.
+    pub smoothed: Vec<EdgeId>,
 }
 
 /// Where the base mesh of a surface came from; empty for a mesh that was given.
@@ -83,6 +98,12 @@ pub struct CurveSummary {
 }
 
 impl G1Surface {
+    /// The base mesh with its creases closed: how the patches hang together.
+    #[must_use]
+    pub fn whole(&self) -> &TriMesh {
+        self.rim.as_ref().map_or(&self.mesh, |rim| &rim.whole)
+    }
+
     /// How the curves were found.
     #[must_use]
     pub fn curve_summary(&self) -> CurveSummary {
@@ -112,11 +133,11 @@ impl G1Surface {
         fill(&self.mesh, &self.network, target, &plan).nets
     }
 
-    /// Largest coefficient of the smoothness condition over all edges, in chord lengths.
+    /// Largest coefficient of the smoothness condition over all edges with two faces, in chord lengths.
     #[must_use]
     pub fn max_row_residual(&self) -> f64 {
         let residuals = EdgeMap::from_fn(self.mesh.topology().edge_count(), |edge| {
-            self.patches.edge_residual(&self.mesh, &self.network, edge).unwrap_or(f64::INFINITY)
+            self.patches.edge_residual(&self.mesh, &self.network, edge).unwrap_or(0.0)
         });
         residuals.as_slice().iter().copied().fold(0.0, f64::max)
     }

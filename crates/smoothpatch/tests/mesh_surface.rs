@@ -6,10 +6,10 @@ use smoothpatch::bezier_core::{MultiIndex, SepticTriangle};
 use smoothpatch::implicit::{ProjectionSettings, Torus};
 use smoothpatch::measure::deviation;
 use smoothpatch::mesh_surface::{
-    MeshBase, MeshSource, MeshSurfaceError, fit_mesh_field, mesh_distances, mesh_field,
+    MeshBase, MeshSource, MeshSurfaceError, SharpMesh, fit_mesh_field, mesh_distances, mesh_field,
 };
-use smoothpatch::meshfield::{JetSettings, MeshField, subdivided};
-use smoothpatch::{Distance, G1Surface, Settings, Silent, Tolerance, report};
+use smoothpatch::meshfield::{JetSettings, MeshField, sharp_edges, subdivided};
+use smoothpatch::{Distance, G1Surface, Report, Settings, Silent, Tolerance, report, report_sharp};
 use testkit::meshes::{icosphere, torus_grid};
 
 fn field(mesh: TriMesh) -> MeshField {
@@ -99,6 +99,93 @@ fn what_is_not_smooth_is_refused_with_its_edges() {
     let open = TriMesh::new(whole.positions().as_slice().to_vec(), &faces).expect("a mesh");
     let error = mesh_field(open, &jets, 1.0).expect_err("a hole").to_string();
     assert!(error.starts_with("the mesh is open: 3 edges have one face only, "), "{error}");
+}
+
+/// A mesh with sharp edges, fitted and measured.
+fn fit_sharp(mesh: TriMesh, crease_deg: f64) -> (G1Surface, Report) {
+    let sharp = sharp_edges(&mesh, crease_deg.to_radians());
+    let sharp = SharpMesh::new(mesh, &sharp, &JetSettings::default()).expect("pieces");
+    let settings = Settings::with_faces(0);
+    let surface = sharp.fit(&settings, &mut Silent).expect("a surface");
+    let (report, _) = report_sharp(&surface, &sharp, &settings, &mut Silent);
+    (surface, report)
+}
+
+/// Exactly smooth but along sharp edges, where both patches have the same bits.
+fn check_sharp(report: &Report, creases: usize) {
+    let joined = &report.continuity;
+    assert_eq!(joined.sharp_edges, creases, "creases");
+    assert!(joined.g1_angle_deg < 1e-9, "{joined:?}");
+    assert_eq!(joined.position_gap, 0.0, "no gaps, bit for bit");
+    assert!(report.row_residual < 1e-12, "{}", report.row_residual);
+    assert_eq!(report.deviation.folded.len(), 0, "folds");
+    assert_eq!(report.deviation.failed_samples, 0, "samples without foot");
+}
+
+#[test]
+fn a_block_keeps_its_edges_and_flat_faces() {
+    let mesh = testkit::meshes::l_block();
+    let euler = mesh.topology().euler_characteristic();
+    let (surface, report) = fit_sharp(mesh, 60.0);
+    let creases = surface.rim.as_ref().expect("a rim").creases.len();
+    check_sharp(&report, creases);
+    assert!(creases > 18 && report.continuity.closed, "{creases} creases");
+    assert_eq!(report.continuity.euler_characteristic, euler);
+    assert!(report.deviation.max < 1e-14, "{}", report.deviation.max);
+    assert!((report.continuity.sharp_angle_deg - 90.0).abs() < 1e-9);
+}
+
+#[test]
+fn half_a_sphere_is_open_and_close_to_the_sphere() {
+    let whole = icosphere(3);
+    let is_upper =
+        |face: &[usize; 3]| face.iter().all(|&v| whole.positions().as_slice()[v].z > -0.2);
+    let faces: Vec<[usize; 3]> = whole.face_indices().into_iter().filter(is_upper).collect();
+    let mut used: Vec<usize> = faces.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    let faces: Vec<[usize; 3]> =
+        faces.iter().map(|face| face.map(|v| used.binary_search(&v).expect("used"))).collect();
+    let positions = used.iter().map(|&v| whole.positions().as_slice()[v]).collect();
+    let (surface, report) = fit_sharp(TriMesh::new(positions, &faces).expect("a mesh"), 60.0);
+    check_sharp(&report, 0);
+    let joined = &report.continuity;
+    assert!(!joined.closed && joined.euler_characteristic == 1, "{joined:?}");
+    let target = FieldTarget::new(
+        &smoothpatch::implicit::Sphere { radius: 1.0 },
+        surface.mesh.diagonal(),
+        ProjectionSettings::default(),
+    );
+    // the rim runs to and fro and is no circle
+    let distance = deviation(&surface.patches.nets, &target, surface.mesh.diagonal()).0.max;
+    assert!(distance < 3e-3, "{distance}");
+}
+
+/// A crease that ends inside: a sphere with a pinched meridian from pole to pole on one side.
+#[test]
+fn a_crease_may_end_inside_a_face_of_the_mesh() {
+    let mesh = icosphere(3);
+    let positions = mesh.positions().map(|_, &p| {
+        let ridge = (0.25 - p.y.abs()).max(0.0) * (0.7 - p.z.abs()).max(0.0);
+        if p.x > 0.0 { p * (1.0 + 2.0 * ridge) } else { p }
+    });
+    let mesh = mesh.with_positions(positions).expect("finite");
+    let (surface, report) = fit_sharp(mesh, 40.0);
+    let rim = surface.rim.as_ref().expect("a rim");
+    assert!(rim.creases.len() > 2, "{} creases", rim.creases.len());
+    assert_eq!(report.continuity.components, 1);
+    check_sharp(&report, rim.creases.len());
+}
+
+#[test]
+#[ignore = "minutes without optimisation: cargo test --release -p smoothpatch -- --ignored spot"]
+fn spot_is_smooth_with_all_its_vertices() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/meshes/spot_triangulated.obj");
+    let mesh = smoothpatch::io::read_mesh_file(file).expect("spot").mesh;
+    let field = mesh_field(mesh, &JetSettings::default(), 80_f64.to_radians()).expect("smooth");
+    let surface = fit(&field, MeshBase::Keep, 0);
+    check_smooth(&field, &surface);
+    assert_eq!(surface.curve_summary().fallbacks, 0, "curves");
 }
 
 #[test]

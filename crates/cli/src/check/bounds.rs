@@ -14,7 +14,8 @@ use crate::values;
 #[group(skip)]
 #[command(next_help_heading = "Bounds")]
 pub(crate) struct Bounds {
-    /// Largest distance to the surface over the diagonal of the bounding box
+    /// Largest distance to the surface over the diagonal of the bounding box; with --mesh, in both
+    /// directions
     #[arg(long, value_name = "X", requires = SURFACE, value_parser = values::bound)]
     max_deviation: Option<f64>,
 
@@ -105,6 +106,16 @@ impl Verdict {
 }
 
 impl Bounds {
+    /// A bound that has no meaning when patches are compared with a mesh.
+    pub(super) fn not_for_meshes(&self) -> Option<&'static str> {
+        [
+            (self.max_rms_deviation.is_some(), "--max-rms-deviation"),
+            (self.max_normal_error.is_some(), "--max-normal-error"),
+        ]
+        .into_iter()
+        .find_map(|(given, name)| given.then_some(name))
+    }
+
     /// All bounds that were given.
     pub(crate) fn verdicts(&self, measured: &Measured) -> Vec<Verdict> {
         let joined = &measured.continuity;
@@ -118,6 +129,9 @@ impl Bounds {
                 ("max-rms-deviation", self.max_rms_deviation, deviation.rms),
                 ("max-normal-error", self.max_normal_error, deviation.max_normal_deg),
             ]);
+        }
+        if let Some(mesh) = &measured.mesh {
+            reals.push(("max-deviation", self.max_deviation, mesh.max()));
         }
         let folds = measured.folded.len();
         let exact = [

@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use smoothpatch::FieldSource;
 use smoothpatch::basemesh::glam::DVec3;
-use smoothpatch::basemesh::{FaceId, TopologyError};
+use smoothpatch::basemesh::{FaceId, TopologyError, TriMesh};
 use smoothpatch::bezier_core::{Barycentric, Corner, SepticTriangle};
 use smoothpatch::implicit::{Aabb, ImplicitSurface, ProjectionSettings};
 use smoothpatch::io::{VtuReadError, VtuSurface, read_vtu_file};
-use smoothpatch::measure::{Continuity, Deviation, continuity, deviation, folded_patches};
+use smoothpatch::measure::{Continuity, Deviation, continuity_beside, deviation, folded_patches};
+use smoothpatch::mesh_surface::{MeshDistances, mesh_distances};
 
 use super::bounds::{Bounds, Verdict};
 use crate::table::{Table, degrees, grid, length, of_diagonal, yes_no};
@@ -55,10 +56,23 @@ pub(crate) struct Measured {
     /// Distance and angle to the surface, if one was named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) deviation: Option<Deviation>,
+    /// Distances from a mesh and to it, if one was named.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) mesh: Option<MeshDistances>,
 }
 
-/// Measures patches, against a surface if there is one.
-pub(crate) fn measure(patches: &Patches, field: Option<&dyn ImplicitSurface>) -> Measured {
+/// What patches are compared with.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Reference<'a> {
+    pub(crate) field: Option<&'a dyn ImplicitSurface>,
+    pub(crate) mesh: Option<&'a TriMesh>,
+    /// Edges whose patches meet at more than this are creases. Unit: radians.
+    pub(crate) crease_angle: Option<f64>,
+}
+
+/// Measures patches, against a surface or a mesh if there is one.
+pub(crate) fn measure(patches: &Patches, reference: Reference<'_>) -> Measured {
+    let Reference { field, mesh, crease_angle } = reference;
     let VtuSurface { topology, nets, .. } = patches;
     let vertices = nets.as_slice().iter().flat_map(corners);
     let diagonal = Aabb::around(vertices).map_or(0.0, |extent| extent.diagonal());
@@ -69,11 +83,14 @@ pub(crate) fn measure(patches: &Patches, field: Option<&dyn ImplicitSurface>) ->
     let mut folded: BTreeSet<usize> = folded_patches(nets).into_iter().map(FaceId::index).collect();
     folded.extend(deviation.iter().flat_map(|deviation| &deviation.folded));
     Measured {
-        continuity: continuity(topology, nets),
+        continuity: continuity_beside(topology, nets, &|_, angle| {
+            crease_angle.is_some_and(|limit| angle > limit)
+        }),
         vertices: topology.vertex_count(),
         open_edges: topology.edges().filter(|&edge| topology.is_boundary_edge(edge)).count(),
         folded,
         deviation,
+        mesh: mesh.map(|mesh| mesh_distances(mesh, nets)),
     }
 }
 
@@ -145,7 +162,16 @@ fn fill(table: &mut Table, measured: &Measured) {
     table.row("Euler characteristic", joined.euler_characteristic);
     table.row("G0 gap", length(joined.position_gap));
     table.row("G1 angle", degrees(joined.g1_angle_deg));
+    if joined.sharp_edges > 0 {
+        let angle = degrees(joined.sharp_angle_deg);
+        table.row("C0 edges", format!("{}, up to {angle}", joined.sharp_edges));
+    }
     table.row("folded patches", measured.folded.len());
+    if let Some(mesh) = &measured.mesh {
+        table.row("mesh vertices", of_diagonal(mesh.vertices.max));
+        table.row("mesh triangles", of_diagonal(mesh.triangle_samples.max));
+        table.row("patches from mesh", of_diagonal(mesh.patch_samples.max));
+    }
     if let Some(deviation) = &measured.deviation {
         table.row("max deviation", of_diagonal(deviation.max));
         table.row("RMS deviation", of_diagonal(deviation.rms));

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{anyhow, bail};
 use clap::Args;
 use serde::Serialize;
+use smoothpatch::basemesh::{EdgeId, TriMesh, VertexId};
 use smoothpatch::io::{MeshFile, MeshFormat, Repairs, read_mesh_file};
 use smoothpatch::mesh_surface::{
-    JetSummary, MeshBase, MeshDistances, MeshSurfaceError, fit_mesh_field, jet_summary,
-    mesh_distances, mesh_field,
+    JetSummary, MeshBase, MeshDistances, SharpMesh, fit_mesh_field, jet_summary, mesh_distances,
 };
-use smoothpatch::meshfield::{JetSettings, MeshField};
-use smoothpatch::{G1Surface, Progress, Settings};
+use smoothpatch::meshfield::{JetError, JetSettings, MeshField, fit_jets, sharp_edges};
+use smoothpatch::{G1Surface, Progress, Rim, Settings};
 
 use super::FitArguments;
 use super::scene_task::tolerance;
@@ -28,8 +28,8 @@ pub(crate) struct MeshOptions {
     #[arg(long, conflicts_with_all = ["faces", "tolerance", "normal_tolerance", "base_mesh"])]
     keep_vertices: bool,
 
-    /// A mesh whose faces meet at more than this angle somewhere has sharp edges, which cannot be kept
-    /// yet [default: 80]
+    /// Edges whose faces meet at more than this angle are creases: the patches meet there without gaps,
+    /// but with a kink. Needs --keep-vertices, as open meshes do [default: 80]
     #[arg(long, value_name = "DEG", value_parser = values::crease_angle)]
     #[arg(allow_hyphen_values = true)]
     crease_angle: Option<f64>,
@@ -66,10 +66,27 @@ pub(super) fn is_mesh(file: &Path) -> bool {
     MeshFormat::from_extension(&extension(file)).is_some()
 }
 
-/// A mesh and the smooth surface that it stands for.
+/// What a mesh stands for.
+pub(crate) enum MeshShape {
+    /// A smooth closed surface.
+    Smooth(MeshField),
+    /// Smooth pieces with sharp edges and boundaries.
+    Sharp(SharpMesh),
+}
+
+impl MeshShape {
+    fn mesh(&self) -> &TriMesh {
+        match self {
+            Self::Smooth(field) => field.mesh(),
+            Self::Sharp(sharp) => sharp.mesh(),
+        }
+    }
+}
+
+/// A mesh and the surface that it stands for.
 pub(crate) struct MeshTask {
     pub(crate) file: PathBuf,
-    pub(crate) field: MeshField,
+    pub(crate) shape: MeshShape,
     pub(crate) base: MeshBase,
     crease_angle: f64,
     faces: usize,
@@ -94,10 +111,9 @@ impl MeshTask {
             ),
         };
         let crease_angle = options.crease_angle.unwrap_or(CREASE_ANGLE);
-        let field = mesh_field(mesh, &options.jets(), crease_angle.to_radians())
-            .map_err(|error| explain(file, &error))?;
+        let shape = shape(file, mesh, &options.jets(), crease_angle.to_radians(), base)?;
         let groups = groups.len();
-        Ok(Self { file: file.to_owned(), field, base, crease_angle, faces, repairs, groups })
+        Ok(Self { file: file.to_owned(), shape, base, crease_angle, faces, repairs, groups })
     }
 
     /// The number of patches asked for.
@@ -110,8 +126,11 @@ impl MeshTask {
         settings: &Settings,
         progress: &mut dyn Progress,
     ) -> anyhow::Result<G1Surface> {
-        fit_mesh_field(&self.field, self.base, settings, progress)
-            .map_err(|error| anyhow!("{}: {error}", self.file.display()))
+        let fitted = match &self.shape {
+            MeshShape::Smooth(field) => fit_mesh_field(field, self.base, settings, progress),
+            MeshShape::Sharp(sharp) => sharp.fit(settings, progress),
+        };
+        fitted.map_err(|error| anyhow!("{}: {error}", self.file.display()))
     }
 
     /// The number of patches, if one was asked for.
@@ -126,7 +145,11 @@ impl MeshTask {
 
     /// What is known about the mesh, and how far it is from the patches.
     pub(crate) fn report(&self, surface: &G1Surface) -> MeshReport {
-        let mesh = self.field.mesh();
+        let mesh = self.shape.mesh();
+        let fields: Vec<&MeshField> = match &self.shape {
+            MeshShape::Smooth(field) => vec![field],
+            MeshShape::Sharp(sharp) => sharp.fields().collect(),
+        };
         MeshReport {
             file: self.file.clone(),
             vertices: mesh.topology().vertex_count(),
@@ -134,7 +157,8 @@ impl MeshTask {
             groups: self.groups,
             repairs: self.repairs,
             crease_angle_deg: self.crease_angle,
-            jets: jet_summary(&self.field),
+            jets: jet_summary(&fields),
+            rim: surface.rim.as_ref().map(RimReport::new),
             distances: mesh_distances(mesh, &surface.patches.nets),
         }
     }
@@ -150,23 +174,56 @@ pub(crate) struct MeshReport {
     repairs: Repairs,
     crease_angle_deg: f64,
     jets: JetSummary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rim: Option<RimReport>,
     distances: MeshDistances,
+}
+
+/// Where the surface is not smooth: the ends of edges, counted from 0.
+#[derive(Clone, Debug, Serialize)]
+struct RimReport {
+    creases: Vec<[usize; 2]>,
+    boundary: Vec<[usize; 2]>,
+    smoothed: Vec<[usize; 2]>,
+}
+
+impl RimReport {
+    fn new(rim: &Rim) -> Self {
+        let ends = |edges: &[EdgeId]| -> Vec<[usize; 2]> {
+            let vertices = |&e: &EdgeId| rim.whole.topology().edge_vertices(e).map(VertexId::index);
+            edges.iter().map(vertices).collect()
+        };
+        Self {
+            creases: ends(&rim.creases),
+            boundary: ends(&rim.boundary),
+            smoothed: ends(&rim.smoothed),
+        }
+    }
 }
 
 impl MeshReport {
     /// Lines of the table about the mesh itself.
     pub(crate) fn rows_of_input(&self, table: &mut Table) {
-        let Self { vertices, triangles, repairs, jets, .. } = self;
+        let Self { vertices, triangles, repairs, jets, rim, .. } = self;
         table.row("mesh", format!("{vertices} vertices, {triangles} triangles"));
         if let Some(text) = repairs_text(repairs) {
             table.row("put in order", text);
         }
-        let [second, third, fourth] = jets.by_degree;
-        let degrees = [(second, 2), (third, 3), (fourth, 4)]
+        let [first, second, third, fourth] = jets.by_degree;
+        let degrees = [(first, 1), (second, 2), (third, 3), (fourth, 4)]
             .into_iter()
             .filter(|(count, _)| *count > 0)
             .map(|(count, degree)| format!("{count} of degree {degree}"));
         table.row("jets", degrees.collect::<Vec<_>>().join(", "));
+        if let Some(RimReport { creases, boundary, smoothed }) = rim {
+            let counts = [(creases, "creases"), (boundary, "open"), (smoothed, "single, smoothed")];
+            let text: Vec<String> = counts
+                .into_iter()
+                .filter(|(edges, _)| !edges.is_empty())
+                .map(|(edges, what)| format!("{} {what}", edges.len()))
+                .collect();
+            table.row("not smooth", format!("edges: {}", text.join(", ")));
+        }
         table.row("jet residual", format!("{:.2e} of the radius (RMS)", jets.rms_residual));
     }
 
@@ -222,13 +279,31 @@ fn refuse_scene_options(arguments: &FitArguments, file: &Path) -> anyhow::Result
     }
 }
 
-/// The message with the file, and with the option that would help.
-fn explain(file: &Path, error: &MeshSurfaceError) -> anyhow::Error {
-    let hint = match error {
-        MeshSurfaceError::Creases { .. } => {
-            "; if the surface is meant to be smooth there, raise --crease-angle"
-        }
-        _ => "",
-    };
-    anyhow!("{}: {error}{hint}", file.display())
+/// The smooth surface of a mesh, or its smooth pieces.
+fn shape(
+    file: &Path,
+    mesh: TriMesh,
+    jets: &JetSettings,
+    crease_angle: f64,
+    base: MeshBase,
+) -> anyhow::Result<MeshShape> {
+    let error = |error: JetError| anyhow!("{}: {error}", file.display());
+    let sharp = sharp_edges(&mesh, crease_angle);
+    if sharp.creases.is_empty() && sharp.boundary.is_empty() {
+        let jets = fit_jets(&mesh, jets).map_err(error)?;
+        return Ok(MeshShape::Smooth(MeshField::new(mesh, jets).map_err(error)?));
+    }
+    if base != MeshBase::Keep {
+        bail!(
+            "{}: {} edges are sharper than {:.0}° (the largest angle is {:.1}°) and {} have one face only; \
+             a mesh with such edges keeps its triangles: use --keep-vertices, or raise --crease-angle if \
+             the surface is meant to be smooth there",
+            file.display(),
+            sharp.creases.len(),
+            crease_angle.to_degrees(),
+            sharp.largest_angle.to_degrees(),
+            sharp.boundary.len(),
+        );
+    }
+    Ok(MeshShape::Sharp(SharpMesh::new(mesh, &sharp, jets).map_err(error)?))
 }

@@ -54,7 +54,7 @@ impl<'a> Outputs<'a> {
         surface: &G1Surface,
         faces: &FaceMap<FaceDeviation>,
     ) -> anyhow::Result<Vec<Written>> {
-        let (topology, nets) = (surface.mesh.topology(), &surface.patches.nets);
+        let (topology, nets) = (surface.whole().topology(), &surface.patches.nets);
         let vtu = VtuOptions {
             cells: self.cells,
             cell_data: cell_data(faces, surface.mesh.diagonal()),
@@ -106,7 +106,7 @@ impl Outputs<'_> {
         format: TriangleFormat,
         surface: &G1Surface,
     ) -> anyhow::Result<Written> {
-        let (topology, nets) = (surface.mesh.topology(), &surface.patches.nets);
+        let (topology, nets) = (surface.whole().topology(), &surface.patches.nets);
         if let Some(tolerance) = self.formats.chord_tolerance {
             let length = tolerance * surface.mesh.diagonal();
             let ChordTessellation { tessellation, gap, .. } =

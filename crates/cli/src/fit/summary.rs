@@ -106,6 +106,10 @@ fn quality(table: &mut Table, report: &Report) {
     table.row("components", joined.components);
     table.row("closed", yes_no(joined.closed));
     table.row("G1 angle", degrees(joined.g1_angle_deg));
+    if joined.sharp_edges > 0 {
+        let angle = degrees(joined.sharp_angle_deg);
+        table.row("C0 edges", format!("{}, up to {angle}", joined.sharp_edges));
+    }
     table.row("max deviation", of_diagonal(deviation.max));
     table.row("RMS deviation", of_diagonal(deviation.rms));
     table.row("max normal error", degrees(deviation.max_normal_deg));

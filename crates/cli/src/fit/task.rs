@@ -2,11 +2,15 @@
 
 use std::path::Path;
 
-use smoothpatch::mesh_surface::MeshSource;
-use smoothpatch::{FieldSource, FitSource, G1Surface, Method, Progress, Settings};
+use smoothpatch::basemesh::FaceMap;
+use smoothpatch::measure::FaceDeviation;
+use smoothpatch::mesh_surface::{MeshSource, SharpMesh};
+use smoothpatch::{
+    FieldSource, FitSource, G1Surface, Method, Progress, Report, Settings, report, report_sharp,
+};
 
 use super::FitArguments;
-use super::mesh_task::{MeshTask, is_mesh};
+use super::mesh_task::{MeshShape, MeshTask, is_mesh};
 use super::scene_task::SceneTask;
 
 /// One surface and everything that decides how it is fitted.
@@ -47,12 +51,30 @@ impl Task {
         }
     }
 
-    /// What the patches are compared with; `diagonal` is the size of their surface.
-    pub(crate) fn source(&self, diagonal: f64) -> Box<dyn FitSource + '_> {
+    /// Everything measured about the result, and the figures of each face.
+    pub(crate) fn report(
+        &self,
+        surface: &G1Surface,
+        progress: &mut dyn Progress,
+    ) -> (Report, FaceMap<FaceDeviation>) {
+        match self.source(surface.mesh.diagonal()) {
+            Ok(source) => report(surface, &*source, progress),
+            Err(sharp) => report_sharp(surface, sharp, &self.settings, progress),
+        }
+    }
+
+    /// The smooth surface that the patches are compared with, of the size `diagonal`, or the mesh whose
+    /// pieces have one each.
+    pub(crate) fn source(&self, diagonal: f64) -> Result<Box<dyn FitSource + '_>, &SharpMesh> {
         let projection = self.settings.projection;
         match &self.input {
-            Input::Scene(scene) => Box::new(FieldSource::new(&*scene.field, diagonal, projection)),
-            Input::Mesh(mesh) => Box::new(MeshSource::new(&mesh.field, projection)),
+            Input::Scene(scene) => {
+                Ok(Box::new(FieldSource::new(&*scene.field, diagonal, projection)))
+            }
+            Input::Mesh(mesh) => match &mesh.shape {
+                MeshShape::Smooth(field) => Ok(Box::new(MeshSource::new(field, projection))),
+                MeshShape::Sharp(sharp) => Err(sharp),
+            },
         }
     }
 

@@ -54,6 +54,31 @@ fn what_was_put_in_order_is_said() {
 }
 
 #[test]
+fn sharp_edges_and_open_ones_stay() {
+    let place = place("sphere_1280.stl");
+    place.write("cube.obj", CUBE);
+    place.write("open.obj", CUBE.replace("f 4 3 2 1\n", ""));
+    let run = place.run("fit cube.obj --keep-vertices -o c.vtu -o c.step --report c.json");
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    has_rows(
+        &run.stdout,
+        &["not smooth edges: 12 creases", "C0 edges 12, up to 9.00e1°", "closed yes"],
+    );
+    let rim = &place.json("c.json")["mesh"]["rim"];
+    assert_eq!(rim["creases"].as_array().map(Vec::len), Some(12), "{rim}");
+    place.succeed(
+        "check c.vtu --closed --euler 2 --crease-angle 45 --max-g1-angle 1e-9 --max-gap 0",
+    );
+    place.succeed("check c.vtu --mesh cube.obj --max-deviation 1e-12");
+    let run = place.run("check c.vtu --mesh open.obj --max-deviation 1e-12");
+    assert_eq!(run.code, 1, "the lid is missing: {}", run.stdout);
+
+    let run = place.run("fit open.obj --keep-vertices -o o.vtu -o o.step");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    has_rows(&run.stdout, &["not smooth edges: 8 creases, 4 open", "closed no"]);
+}
+
+#[test]
 fn what_is_refused() {
     let place = place("sphere_1280.stl");
     place.write("cube.obj", CUBE);
@@ -62,12 +87,9 @@ fn what_is_refused() {
     place.write("points.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n");
     for (options, message) in [
         ("fit sphere_1280.stl", "how many patches? --faces N makes about N"),
-        ("fit cube.obj --keep-vertices", "at 12 edges the faces meet at more than 80°"),
-        ("fit cube.obj --keep-vertices", "raise --crease-angle"),
-        (
-            "fit open.obj --keep-vertices",
-            "the mesh is open: 4 edges have one face only, 0-1, 0-3, 1-2, 2-3",
-        ),
+        ("fit cube.obj --faces 20", "12 edges are sharper than 80° (the largest angle is 90.0°)"),
+        ("fit cube.obj --faces 20", "use --keep-vertices, or raise --crease-angle"),
+        ("fit open.obj --faces 20", "4 have one face only"),
         ("fit three.obj --keep-vertices", "vertices 0 and 1, [0.5, 0, 0], has 3 faces (0, 2, 6)"),
         ("fit points.ply --faces 100", "points.ply: the PLY file has no element 'face'"),
         ("fit missing.off --faces 100", "missing.off: cannot read:"),

@@ -24,7 +24,13 @@ pub struct Continuity {
     /// Largest angle between the normals of neighbouring patches, in degrees, at
     /// [`SEAM_SAMPLES`] points of every edge; infinite where a patch has no normal.
     pub g1_angle_deg: f64,
-    /// The edge with that angle: its two vertices.
+    /// Edges that are known to be sharp, which do not count in `g1_angle_deg`.
+    #[serde(default)]
+    pub sharp_edges: usize,
+    /// Largest angle along them, in degrees.
+    #[serde(default)]
+    pub sharp_angle_deg: f64,
+    /// The edge with the largest angle of the others: its two vertices.
     pub worst_edge: Option<[usize; 2]>,
     /// Largest Bernstein coefficient of the tangent-plane determinant along an edge, scaled to
     /// unit chords: bounds the mismatch between the samples too.
@@ -52,6 +58,17 @@ pub fn seam<'a>(
 /// Measures topology, gaps and normal angles of a patch surface.
 #[must_use]
 pub fn continuity(topology: &Topology, nets: &FaceMap<SepticTriangle>) -> Continuity {
+    continuity_beside(topology, nets, &|_, _| false)
+}
+
+/// [`continuity`] with the angles along some edges apart: those that `is_sharp` by themselves or by their
+/// largest angle, in radians.
+#[must_use]
+pub fn continuity_beside(
+    topology: &Topology,
+    nets: &FaceMap<SepticTriangle>,
+    is_sharp: &dyn Fn(EdgeId, f64) -> bool,
+) -> Continuity {
     struct EdgeMeasure {
         gap: f64,
         angle: f64,
@@ -71,14 +88,21 @@ pub fn continuity(topology: &Topology, nets: &FaceMap<SepticTriangle>) -> Contin
         closed: topology.is_closed(),
         position_gap: 0.0,
         g1_angle_deg: 0.0,
+        sharp_edges: 0,
+        sharp_angle_deg: 0.0,
         worst_edge: None,
         coplanarity: 0.0,
     };
     for (edge, measure) in edges.iter() {
         let Some(measure) = measure else { continue };
         result.position_gap = result.position_gap.max(measure.gap);
-        result.coplanarity = result.coplanarity.max(measure.coplanarity);
         let degrees = measure.angle.to_degrees();
+        if is_sharp(edge, measure.angle) {
+            result.sharp_edges += 1;
+            result.sharp_angle_deg = result.sharp_angle_deg.max(degrees);
+            continue;
+        }
+        result.coplanarity = result.coplanarity.max(measure.coplanarity);
         if result.worst_edge.is_none() || degrees > result.g1_angle_deg {
             result.g1_angle_deg = degrees;
             result.worst_edge = Some(topology.edge_vertices(edge).map(basemesh::VertexId::index));

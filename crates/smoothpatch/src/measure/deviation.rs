@@ -67,8 +67,18 @@ pub fn deviation(
     target: &dyn SurfaceTarget,
     diagonal: f64,
 ) -> (Deviation, FaceMap<FaceDeviation>) {
-    let mut faces = face_deviations(nets, target, |_| None);
-    let grid = settle(&mut faces, nets, target);
+    deviation_by(nets, &|_| target, diagonal)
+}
+
+/// [`deviation`] with a target for each face.
+pub(crate) fn deviation_by<'t>(
+    nets: &FaceMap<SepticTriangle>,
+    targets: &(dyn (Fn(FaceId) -> &'t dyn SurfaceTarget) + Sync),
+    diagonal: f64,
+) -> (Deviation, FaceMap<FaceDeviation>) {
+    let on_grid = |face, grid| compare(sampled(&nets[face], grid), targets(face));
+    let mut faces = FaceMap::from_fn(nets.len(), |face| on_grid(face, GRID));
+    let grid = settle_with(&mut faces, on_grid);
     (summarise(&faces, diagonal, grid), faces)
 }
 
@@ -96,7 +106,7 @@ pub(crate) fn face_deviations(
 /// Positions and normals of a patch at a regular grid; the normals are as long as the area element.
 pub(crate) type PatchSamples = (Vec<DVec3>, Vec<DVec3>);
 
-fn sampled(net: &SepticTriangle, divisions: usize) -> PatchSamples {
+pub(crate) fn sampled(net: &SepticTriangle, divisions: usize) -> PatchSamples {
     if divisions == GRID {
         return on_grid(net);
     }
@@ -125,7 +135,7 @@ pub(crate) fn deviation_of(
     diagonal: f64,
 ) -> (Deviation, FaceMap<FaceDeviation>) {
     let mut faces = FaceMap::from_fn(count, |face| compare(sample(face, GRID), target));
-    let grid = settle_with(&mut faces, sample, target);
+    let grid = settle_with(&mut faces, |face, grid| compare(sample(face, grid), target));
     (summarise(&faces, diagonal, grid), faces)
 }
 
@@ -136,13 +146,12 @@ pub(crate) fn settle(
     nets: &FaceMap<SepticTriangle>,
     target: &dyn SurfaceTarget,
 ) -> usize {
-    settle_with(faces, |face, grid| sampled(&nets[face], grid), target)
+    settle_with(faces, |face, grid| compare(sampled(&nets[face], grid), target))
 }
 
 fn settle_with(
     faces: &mut FaceMap<FaceDeviation>,
-    sample: impl Fn(FaceId, usize) -> PatchSamples + Sync,
-    target: &dyn SurfaceTarget,
+    on_grid: impl Fn(FaceId, usize) -> FaceDeviation + Sync,
 ) -> usize {
     let mut grid = GRID;
     while grid < FINEST_GRID {
@@ -153,7 +162,7 @@ fn settle_with(
             if coarse.max <= CANDIDATES * before.0 && coarse.max_normal <= CANDIDATES * before.1 {
                 return *coarse;
             }
-            coarse.refined_by(&compare(sample(face, grid), target))
+            coarse.refined_by(&on_grid(face, grid))
         });
         let after = largest(faces);
         if after.0 <= SETTLED * before.0 && after.1 <= SETTLED * before.1 {

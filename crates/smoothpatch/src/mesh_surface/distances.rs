@@ -6,6 +6,8 @@ use bezier_core::{Barycentric, SepticTriangle};
 use meshfield::TriangleTree;
 use serde::{Deserialize, Serialize};
 
+use crate::measure::GRID;
+
 /// Divisions of the flat triangles among which the nearest one is looked for.
 const COARSE: usize = 4;
 /// Steps from there to the closest point of the patch.
@@ -24,6 +26,16 @@ pub struct MeshDistances {
     pub vertices: Distances,
     /// Of other points of its flat triangles: on coarse meshes mostly how far a chord is from its arc.
     pub triangle_samples: Distances,
+    /// Of points of the patches from the flat triangles.
+    pub patch_samples: Distances,
+}
+
+impl MeshDistances {
+    /// The largest one of all, in both directions.
+    #[must_use]
+    pub fn max(&self) -> f64 {
+        self.vertices.max.max(self.triangle_samples.max).max(self.patch_samples.max)
+    }
 }
 
 /// Distances of some points.
@@ -35,15 +47,16 @@ pub struct Distances {
     pub max: f64,
     /// The root mean square.
     pub rms: f64,
-    /// The vertex or triangle of the mesh with the largest one, counted from 0.
+    /// The vertex or triangle of the mesh, or the patch, with the largest one, counted from 0.
     pub worst: usize,
 }
 
-/// Measures how far a mesh is from patches: its vertices, and samples inside its triangles and edges.
+/// Measures how far a mesh is from patches: its vertices, and samples inside its triangles and edges; and
+/// the other way round the farthest of 153 points of each patch.
 ///
 /// # Panics
 ///
-/// If there are no patches, or their control points are not finite.
+/// If there are no patches or no triangles, or control points are not finite.
 #[must_use]
 pub fn mesh_distances(mesh: &TriMesh, nets: &FaceMap<SepticTriangle>) -> MeshDistances {
     let patches = Patches::new(nets);
@@ -59,7 +72,18 @@ pub fn mesh_distances(mesh: &TriMesh, nets: &FaceMap<SepticTriangle>) -> MeshDis
         let distance = |at: &Barycentric| patches.distance(a * at.u + b * at.v + c * at.w);
         samples.iter().map(distance).collect::<Vec<f64>>()
     });
+    let triangles = TriangleTree::new(topology.faces().map(|face| mesh.triangle(face)).collect());
+    let from_triangles = nets.map(|_, net| {
+        let distance = |at: Barycentric| {
+            triangles
+                .closest(net.eval(at))
+                .expect("invariant: finite patches and triangles")
+                .distance
+        };
+        Barycentric::lattice(GRID).map(distance).fold(0.0, f64::max)
+    });
     let diagonal = mesh.diagonal();
+    let of_patches = from_triangles.iter().map(|(patch, &d)| (patch.index(), d));
     let of_vertices = vertices.as_slice().iter().copied().enumerate();
     let of_samples =
         faces.iter().flat_map(|(face, all)| all.iter().map(move |&d| (face.index(), d)));
@@ -67,6 +91,7 @@ pub fn mesh_distances(mesh: &TriMesh, nets: &FaceMap<SepticTriangle>) -> MeshDis
         diagonal,
         vertices: summary(of_vertices, diagonal),
         triangle_samples: summary(of_samples, diagonal),
+        patch_samples: summary(of_patches, diagonal),
     }
 }
 

@@ -20,8 +20,7 @@ pub enum MeshSurfaceError {
     Jets(#[from] JetError),
     /// Edges with one face.
     #[error(
-        "the mesh is open: {} edges have one face only, {}; a G1 spline over an open mesh cannot be \
-         made yet, close it first", edges.len(), named(edges)
+        "the mesh is open: {} edges have one face only, {}", edges.len(), named(edges)
     )]
     Open {
         /// The ends of these edges.
@@ -30,7 +29,7 @@ pub enum MeshSurfaceError {
     /// Edges that are sharper than the crease angle.
     #[error(
         "the mesh has creases: at {} edges the faces meet at more than {limit_deg:.0}° (the largest \
-         angle is {largest_deg:.1}°), {}; sharp edges cannot be kept yet", edges.len(), named(edges)
+         angle is {largest_deg:.1}°), {}", edges.len(), named(edges)
     )]
     Creases {
         /// The ends of these edges.
@@ -52,7 +51,7 @@ fn named(edges: &[[usize; 2]]) -> String {
     names.join(", ")
 }
 
-/// The smooth surface that a closed mesh stands for.
+/// The smooth surface that a closed mesh stands for; see [`SharpMesh`](super::SharpMesh) for others.
 ///
 /// `crease_angle` (radians): a mesh whose faces meet at more than that somewhere is not smooth and
 /// refused.
