@@ -71,7 +71,7 @@ pub(crate) enum MeshShape {
     /// A smooth closed surface.
     Smooth(MeshField),
     /// Smooth pieces with sharp edges and boundaries.
-    Sharp(SharpMesh),
+    Sharp(Box<SharpMesh>),
 }
 
 impl MeshShape {
@@ -305,5 +305,5 @@ fn shape(
             sharp.boundary.len(),
         );
     }
-    Ok(MeshShape::Sharp(SharpMesh::new(mesh, &sharp, jets).map_err(error)?))
+    Ok(MeshShape::Sharp(Box::new(SharpMesh::new(mesh, &sharp, jets).map_err(error)?)))
 }
