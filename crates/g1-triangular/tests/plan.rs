@@ -72,7 +72,8 @@ fn choices_act_locally_and_stay_exact() {
 fn a_boundary_is_left_and_all_other_edges_are_smooth() {
     use common::UnitSphere;
     use g1_triangular::CurveNetwork;
-    use g1_triangular::basemesh::TriMesh;
+    use g1_triangular::basemesh::{EdgeMap, TriMesh};
+    use g1_triangular::bezier_core::{LocalEdge, SepticTriangle};
     let it = twisted(0.1);
     let mut faces = it.mesh.face_indices();
     // a vertex with one face only, and larger holes
@@ -89,7 +90,7 @@ fn a_boundary_is_left_and_all_other_edges_are_smooth() {
         if old.edge_vertices(edge) == [a, b] { curve } else { curve.reversed() }
     };
     let curves = new.edges().map(|e| new.edge_vertices(e)).map(|[a, b]| curve(a, b)).collect();
-    let network = CurveNetwork::new(g1_triangular::basemesh::EdgeMap::from_vec(curves));
+    let network = CurveNetwork::new(EdgeMap::from_vec(curves));
     for settings in [Settings::PUBLISHED, Settings::REFINED] {
         let plan = Plan::uniform(new, settings);
         let filled = fill(&open, &network, &UnitSphere, &plan);
@@ -104,17 +105,12 @@ fn a_boundary_is_left_and_all_other_edges_are_smooth() {
         }
         assert!(smooth > 20 && smooth < new.edge_count(), "{smooth} edges are smooth");
         for (face, net) in patches.nets.iter() {
-            for local in bezier_core_edges() {
-                let boundary =
-                    |net: &g1_triangular::bezier_core::SepticTriangle| net.boundary::<8>(local);
+            for local in LocalEdge::ALL {
+                let boundary = |net: &SepticTriangle| net.boundary::<8>(local);
                 assert_eq!(boundary(net), boundary(&before[face]), "curves stay");
             }
         }
     }
-}
-
-fn bezier_core_edges() -> [g1_triangular::bezier_core::LocalEdge; 3] {
-    g1_triangular::bezier_core::LocalEdge::ALL
 }
 
 #[test]

@@ -77,7 +77,7 @@ pub(crate) fn contradicted(
         let [q0, q1, q2, q3, q4] = curve.points;
         let most = defect(a, [q0, q1, q2]).abs().max(defect(b, [q4, q3, q2]).abs());
         // not a number is missed too
-        !(most <= MET * q0.distance(q4))
+        most.is_nan() || most > MET * q0.distance(q4)
     };
     let topology = mesh.topology();
     // on a boundary there are no conditions

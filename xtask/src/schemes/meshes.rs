@@ -5,10 +5,12 @@ use smoothpatch::basemesh::{FieldTarget, TriMesh};
 use smoothpatch::implicit::{ImplicitSurface, ProjectionSettings, Sphere, Torus, surface_point};
 use smoothpatch::io::read_mesh_file;
 use smoothpatch::measure::deviation;
-use smoothpatch::mesh_surface::{MeshBase, MeshSource, fit_mesh_field, mesh_distances, mesh_field};
-use smoothpatch::meshfield::{JetSettings, fit_jets};
-use smoothpatch::{Settings, Silent, report};
-use testkit::meshes::torus_grid;
+use smoothpatch::mesh_surface::{
+    MeshBase, MeshSource, SharpMesh, fit_mesh_field, mesh_distances, mesh_field,
+};
+use smoothpatch::meshfield::{JetSettings, fit_jets, sharp_edges};
+use smoothpatch::{Settings, Silent, report, report_sharp};
+use testkit::meshes::{l_block, torus_grid};
 
 use super::{Case, Measured};
 use crate::check::Check;
@@ -28,6 +30,7 @@ pub(super) fn cases() -> Vec<Case> {
             let exact = Torus { major_radius: 3.0, minor_radius: 1.0 };
             fitted("torus_48x24.ply", MeshBase::Faces, Some((&exact, 2e-4)), &expected)
         }),
+        Case::new("block with creases", SCHEME, |_| block()),
         Case::new("torus 5, 1", "jets", |_| jets()),
     ]
 }
@@ -87,6 +90,35 @@ fn fitted(
         ));
     }
     Ok(measured)
+}
+
+/// A block of cubes: flat faces, C0 along all creases, one closed surface.
+fn block() -> Result<Measured> {
+    let mesh = l_block();
+    let euler = mesh.topology().euler_characteristic();
+    let sharp = sharp_edges(&mesh, CREASE_ANGLE);
+    let creases = sharp.creases.len();
+    let sharp = SharpMesh::new(mesh, &sharp, &JetSettings::default())?;
+    let settings = Settings::with_faces(0);
+    let surface = sharp.fit(&settings, &mut Silent)?;
+    let (report, _) = report_sharp(&surface, &sharp, &settings, &mut Silent);
+    let joined = &report.continuity;
+    let count = |n: usize| i64::try_from(n).expect("invariant: counts fit 32 bits");
+    Ok(Measured {
+        faces: joined.faces,
+        euler: joined.euler_characteristic,
+        kink: Some(joined.g1_angle_deg.to_radians()),
+        deviation: Some(report.deviation.max),
+        order: None,
+        checks: vec![
+            Check::exactly("Euler characteristic", joined.euler_characteristic, euler),
+            Check::exactly("C0 edges", count(joined.sharp_edges), count(creases)),
+            Check::at_most("G1 angle of the others, degrees", joined.g1_angle_deg, 1e-9),
+            Check::at_most("gap", joined.position_gap, 0.0),
+            Check::at_most("deviation", report.deviation.max, 1e-14),
+            Check::exactly("folds", count(report.deviation.folded.len()), 0),
+        ],
+    })
 }
 
 /// Orders of normals and curvatures, for all degrees, on tori of which the second has half the steps.

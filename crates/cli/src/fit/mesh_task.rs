@@ -69,9 +69,9 @@ pub(super) fn is_mesh(file: &Path) -> bool {
 /// What a mesh stands for.
 pub(crate) enum MeshShape {
     /// A smooth closed surface.
-    Smooth(MeshField),
+    Smooth(Box<MeshField>),
     /// Smooth pieces with sharp edges and boundaries.
-    Sharp(SharpMesh),
+    Sharp(Box<SharpMesh>),
 }
 
 impl MeshShape {
@@ -291,7 +291,7 @@ fn shape(
     let sharp = sharp_edges(&mesh, crease_angle);
     if sharp.creases.is_empty() && sharp.boundary.is_empty() {
         let jets = fit_jets(&mesh, jets).map_err(error)?;
-        return Ok(MeshShape::Smooth(MeshField::new(mesh, jets).map_err(error)?));
+        return Ok(MeshShape::Smooth(Box::new(MeshField::new(mesh, jets).map_err(error)?)));
     }
     if base != MeshBase::Keep {
         bail!(
@@ -305,5 +305,5 @@ fn shape(
             sharp.boundary.len(),
         );
     }
-    Ok(MeshShape::Sharp(SharpMesh::new(mesh, &sharp, jets).map_err(error)?))
+    Ok(MeshShape::Sharp(Box::new(SharpMesh::new(mesh, &sharp, jets).map_err(error)?)))
 }
