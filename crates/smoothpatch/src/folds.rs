@@ -4,13 +4,13 @@ use basemesh::glam::DVec3;
 use basemesh::{FaceId, FaceMap, Foot, SurfaceTarget, TriMesh, VertexMap};
 use bezier_core::{MultiIndex, SepticTriangle, SurfaceJet};
 
-use crate::measure::sampled;
+use crate::measure::{sampled, turns_over};
 
 /// Divisions of the grid where folds are looked for: small ones hide at corners and edges.
 const FINE: usize = 64;
 
 /// Patches whose normal is at 90° or more to the surface's, on a grid four times as fine as that of the
-/// deviation.
+/// deviation, or to its own mean.
 ///
 /// Feet are needed only where the patch normal is far from the normals at the corners.
 pub(crate) fn find_folds(
@@ -34,6 +34,9 @@ fn is_folded(net: &SepticTriangle, corners: [DVec3; 3], target: &dyn SurfaceTarg
     // feet only where the normal alone does not tell
     let is_open = |normal: DVec3| cone.is_none_or(|cone| !cone.contains(normal));
     let (points, normals) = sampled(net, FINE);
+    if turns_over(net) {
+        return true;
+    }
     let open: Vec<usize> = (0..points.len()).filter(|&i| is_open(normals[i])).collect();
     let points: Vec<DVec3> = open.iter().map(|&i| points[i]).collect();
     let mut feet: Vec<Option<Foot>> = vec![None; points.len()];

@@ -258,14 +258,17 @@ fn summarise(faces: &FaceMap<FaceDeviation>, diagonal: f64, grid: usize) -> Devi
     summary
 }
 
+/// Whether the normal somewhere turns by 90° from the patch's own mean normal.
+pub(crate) fn turns_over(net: &SepticTriangle) -> bool {
+    let (_, normals) = on_grid(net);
+    let mean: DVec3 = normals.iter().sum();
+    !normals.iter().all(|normal| normal.dot(mean) > 0.0)
+}
+
 /// Patches whose normal somewhere turns by more than 90° from the patch's own mean normal: folds
 /// that can be seen without knowing the target.
 #[must_use]
 pub fn folded_patches(nets: &FaceMap<SepticTriangle>) -> Vec<FaceId> {
-    let folded = nets.map(|_, net| {
-        let (_, normals) = on_grid(net);
-        let mean: DVec3 = normals.iter().sum();
-        !normals.iter().all(|normal| normal.dot(mean) > 0.0)
-    });
+    let folded = nets.map(|_, net| turns_over(net));
     folded.iter().filter(|(_, folded)| **folded).map(|(face, _)| face).collect()
 }
