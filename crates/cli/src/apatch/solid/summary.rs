@@ -67,6 +67,10 @@ pub(super) fn warnings(surface: &PolyhedralSurface, sampled: &Sampled) -> Vec<St
         warnings
             .push("some weights have the wrong sign; the surface is smooth, see bad rays".into());
     }
+    if let Some(fairness) = report.fairness.filter(|f| !f.is_smooth()) {
+        let residual = fairness.residual;
+        warnings.push(format!("not smooth: the smoothness conditions hold only to {residual:.1e}"));
+    }
     let flipped = sampled.mesh.flipped_facets();
     if flipped > 0 {
         warnings.push(format!("{flipped} triangles look the wrong way; try another --density"));
