@@ -18,7 +18,7 @@ use smoothpatch::apatch_surface::report;
 
 use crate::arguments::EXIT_CODES;
 use crate::exit::{Outcome, complain};
-use crate::output_files::OutputFiles;
+use crate::output_files::{Holds, OutputFiles};
 use crate::progress::WorkLine;
 use crate::stdout::print;
 use crate::threads::ThreadArguments;
@@ -35,7 +35,8 @@ use task::Task;
 /// passes through the vertices with the given normals, one for each vertex. Where the tetrahedra of
 /// neighbours overlap, they are repaired; what cannot be repaired is named. The mesh may be open.
 ///
-/// With `--scheme c1-cubic` or `c2-quintic` a solid with planar faces of any size is rounded off.
+/// With `--scheme c1-cubic` or `c2-quintic` a solid with planar faces of any size is rounded off. A
+/// file of its tetrahedra, as `--weights` writes it, can be given instead of the mesh.
 #[derive(Args)]
 #[command(after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"))]
 pub(crate) struct ApatchArguments {
@@ -77,17 +78,24 @@ Examples:
   smoothpatch apatch part.obj --normals file --tension 0.5 -o part.vtu
   smoothpatch apatch fixtures/solids/frame.off --scheme c2-quintic -o frame.vtu
   smoothpatch apatch icosahedron --scheme c1-cubic --cut 0.7 -o round.obj --weights round.json
+  smoothpatch apatch round.json --density 20 -o finer.obj
   smoothpatch apatch part.obj --tension faces.json --repair keep-mesh -o part.vtu -o part.obj
 
 A file for --tension, for all faces and for single ones by number from 0:
   {\"tension\": 0.0, \"faces\": {\"12\": 2.5, \"13\": -0.5}}";
 
 pub(crate) fn run(arguments: &ApatchArguments) -> anyhow::Result<Outcome> {
-    let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?;
-    outputs::check_formats(&files)?;
+    let files =
+        OutputFiles::new(Holds::Triangles, &arguments.outputs, arguments.report.as_deref())?;
     files.check_places()?;
     arguments.threads.apply()?;
     let reference = arguments.reference.as_deref();
+    if arguments.options.is_saved() {
+        arguments.options.refuse_choices(reference.is_some(), arguments.solid.is_used())?;
+        files.check_distinct(arguments.options.files_read())?;
+        let (path, density) = (&arguments.options.mesh, arguments.density);
+        return solid::load(path, density, arguments.quiet, &files);
+    }
     if let Some(scheme) = arguments.options.solid_scheme(reference.is_some())? {
         files.check_distinct(arguments.options.files_read())?;
         let order = solid::Order {

@@ -16,7 +16,7 @@ use smoothpatch::nagata_surface::report;
 use crate::arguments::EXIT_CODES;
 use crate::exit::{Outcome, complain};
 use crate::format_options::FormatOptions;
-use crate::output_files::OutputFiles;
+use crate::output_files::{Holds, OutputFiles};
 use crate::stdout::print;
 use crate::threads::ThreadArguments;
 use crate::values;
@@ -76,7 +76,7 @@ Examples:
   smoothpatch nagata fixtures/meshes/torus_20x10.obj --normals fixtures/scenes/torus.ron -o t.vtu";
 
 pub(crate) fn run(arguments: &NagataArguments) -> anyhow::Result<Outcome> {
-    let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?;
+    let files = OutputFiles::new(Holds::Patches, &arguments.outputs, arguments.report.as_deref())?;
     files.check_places()?;
     arguments.threads.apply()?;
     let reference = arguments.reference.as_deref();

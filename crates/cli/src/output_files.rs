@@ -25,6 +25,15 @@ pub(crate) enum Format {
     Triangles(TriangleFormat),
 }
 
+/// What the formats of a command can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Holds {
+    /// Polynomial patches, or flat triangles.
+    Patches,
+    /// Flat triangles only: the surface has no polynomial patches.
+    Triangles,
+}
+
 /// A format of flat triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TriangleFormat {
@@ -78,10 +87,14 @@ impl Written {
 
 impl OutputFiles {
     /// What the options ask for; only names are looked at.
-    pub(crate) fn new(surfaces: &[PathBuf], report: Option<&Path>) -> anyhow::Result<Self> {
+    pub(crate) fn new(
+        holds: Holds,
+        surfaces: &[PathBuf],
+        report: Option<&Path>,
+    ) -> anyhow::Result<Self> {
         let surfaces = surfaces
             .iter()
-            .map(|path| Ok((format_of(path)?, path.clone())))
+            .map(|path| Ok((format_of(path, holds)?, path.clone())))
             .collect::<anyhow::Result<Vec<_>>>()?;
         if let Some(path) = report
             && extension(path) != "json"
@@ -161,22 +174,27 @@ fn try_to_write(path: &Path) -> Result<(), WriteError> {
     if open { Ok(()) } else { outcome }
 }
 
-fn format_of(path: &Path) -> anyhow::Result<Format> {
+fn format_of(path: &Path, holds: Holds) -> anyhow::Result<Format> {
+    let (name, patches) = (path.display(), holds == Holds::Patches);
     match extension(path).as_str() {
         "vtu" => Ok(Format::Vtu),
-        "step" | "stp" => Ok(Format::Step),
-        "msh" => Ok(Format::Msh),
+        "step" | "stp" if patches => Ok(Format::Step),
+        "msh" if patches => Ok(Format::Msh),
+        "step" | "stp" | "msh" => bail!("-o {name}: {NO_POLYNOMIALS}"),
         "obj" => Ok(Format::Triangles(TriangleFormat::Obj)),
         "ply" => Ok(Format::Triangles(TriangleFormat::Ply)),
         "stl" => Ok(Format::Triangles(TriangleFormat::Stl)),
         "glb" => Ok(Format::Triangles(TriangleFormat::Glb)),
-        _ => bail!(
-            "-o {}: the name must end with .vtu, .step or .msh (patches), or with .obj, .ply, .stl \
-             or .glb (triangles)",
-            path.display()
+        _ if patches => bail!(
+            "-o {name}: the name must end with .vtu, .step or .msh (patches), or with .obj, .ply, \
+             .stl or .glb (triangles)"
         ),
+        _ => bail!("-o {name}: the name must end with .vtu, .obj, .ply, .stl or .glb"),
     }
 }
+
+const NO_POLYNOMIALS: &str = "files of this kind hold polynomial patches, which A-patches are not; use \
+                              .vtu, .obj, .ply, .stl or .glb";
 
 pub(crate) fn extension(path: &Path) -> String {
     path.extension().map(|text| text.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()

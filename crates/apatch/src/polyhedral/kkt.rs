@@ -41,7 +41,7 @@ impl Half {
 }
 
 /// Sum of products, several at a time.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (a, b) = (a.chunks_exact(8), b.chunks_exact(8));
     let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
@@ -58,41 +58,20 @@ pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |m: f64, v| if v.is_nan() { f64::INFINITY } else { m.max(v.abs()) })
 }
 
-/// Added to the diagonals.
-/// Added to the diagonal of the quadratic form.
-const SHIFT: f64 = 1e-11;
-/// Subtracted from the diagonal of the conditions, which need not be independent: refinement then still
-/// converges, because it is the method of multipliers.
-const ROW_SHIFT: f64 = 3e-8;
+/// Added to the diagonal of the quadratic form, and subtracted from that of the conditions, which need
+/// not be independent: refinement then still converges, because it is the method of multipliers.
+///
+/// The first pair whose factorisation keeps all signs is taken: flat tetrahedra need larger ones, with
+/// which refinement takes more steps.
+const SHIFTS: [[f64; 2]; 4] = [[1e-11, 3e-8], [1e-10, 1e-6], [1e-9, 1e-5], [1e-8, 1e-4]];
+/// Steps of refinement in which the residual must be halved.
+const PATIENCE: usize = 3;
 
 impl Kkt {
     /// `None` if the factorisation fails.
     pub(crate) fn new(quadratic: CscMatrix<f64>, rows: Vec<Row>) -> Option<Self> {
-        let (n, m) = (quadratic.n, rows.len());
-        let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
-        for column in 0..n {
-            for k in quadratic.colptr[column]..quadratic.colptr[column + 1] {
-                let row = quadratic.rowval[k];
-                i.push(row);
-                j.push(column);
-                v.push(quadratic.nzval[k] + if row == column { SHIFT } else { 0.0 });
-            }
-        }
-        for (r, row) in rows.iter().enumerate() {
-            for &(unknown, factor) in &row.terms {
-                i.push(unknown);
-                j.push(n + r);
-                v.push(factor);
-            }
-            i.push(n + r);
-            j.push(n + r);
-            v.push(-ROW_SHIFT);
-        }
-        let matrix = CscMatrix::new_from_triplets(n + m, n + m, i, j, v);
-        let signs = (0..n + m).map(|k| if k < n { 1 } else { -1 }).collect();
-        let settings = QDLDLSettingsBuilder::default().Dsigns(signs).build().ok()?;
-        let factors = QDLDLFactorisation::new(&matrix, Some(settings)).ok()?;
-        let mut places = vec![0; n + m];
+        let factors = SHIFTS.iter().find_map(|&shifts| factors(&quadratic, &rows, shifts))?;
+        let mut places = vec![0; factors.perm.len()];
         factors.perm.iter().enumerate().for_each(|(place, &k)| places[k] = place);
         Some(Self { quadratic, rows, factors, places })
     }
@@ -106,16 +85,19 @@ impl Kkt {
         solution.resize(right.len(), 0.0);
         debug_assert_eq!(f.len(), n, "one for each unknown");
         let mut best: Option<(f64, Vec<f64>)> = None;
-        let mut stalled = 0;
-        for _ in 0..=steps {
+        let (mut mark, mut stalled) = (f64::INFINITY, 0);
+        for step in 0..=steps {
             let mut residual = self.residual(solution, &right);
             let size = largest(residual.iter().copied());
-            let better = best.as_ref().is_none_or(|(known, _)| size < 0.5 * known);
-            stalled = if better { 0 } else { stalled + 1 };
+            if size < 0.5 * mark {
+                (mark, stalled) = (size, 0);
+            } else {
+                stalled += 1;
+            }
             if best.as_ref().is_none_or(|(known, _)| size < *known) {
                 best = Some((size, solution.clone()));
             }
-            if size == 0.0 || size.is_infinite() || stalled > 3 {
+            if size == 0.0 || size.is_infinite() || stalled > PATIENCE || step == steps {
                 break;
             }
             self.factors.solve(&mut residual);
@@ -180,4 +162,37 @@ impl Kkt {
             |(start, values): &(usize, Vec<f64>)| dot(&all[*start..*start + values.len()], values);
         with.map(|half| half.0.iter().map(product).sum()).collect()
     }
+}
+
+/// Factors of the matrix with shifts on its diagonal; `None` if it is too close to singular for them.
+fn factors(
+    quadratic: &CscMatrix<f64>,
+    rows: &[Row],
+    [shift, row_shift]: [f64; 2],
+) -> Option<QDLDLFactorisation<f64>> {
+    let (n, m) = (quadratic.n, rows.len());
+    let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
+    for column in 0..n {
+        for k in quadratic.colptr[column]..quadratic.colptr[column + 1] {
+            let row = quadratic.rowval[k];
+            i.push(row);
+            j.push(column);
+            v.push(quadratic.nzval[k] + if row == column { shift } else { 0.0 });
+        }
+    }
+    for (r, row) in rows.iter().enumerate() {
+        for &(unknown, factor) in &row.terms {
+            i.push(unknown);
+            j.push(n + r);
+            v.push(factor);
+        }
+        i.push(n + r);
+        j.push(n + r);
+        v.push(-row_shift);
+    }
+    let matrix = CscMatrix::new_from_triplets(n + m, n + m, i, j, v);
+    let signs = (0..n + m).map(|k| if k < n { 1 } else { -1 }).collect();
+    let settings = QDLDLSettingsBuilder::default().Dsigns(signs).build().ok()?;
+    let factors = QDLDLFactorisation::new(&matrix, Some(settings)).ok()?;
+    (factors.regularize_count() == 0 && factors.D.iter().all(|d| d.is_finite())).then_some(factors)
 }

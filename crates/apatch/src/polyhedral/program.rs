@@ -1,5 +1,6 @@
 //! The quadratic program of the quintic.
 
+use clarabel::algebra::CscMatrix;
 use nalgebra::{DMatrix, DVector};
 
 use super::conditions::{Row, conditions};
@@ -62,6 +63,8 @@ const SHIFT: f64 = 1e-8;
 const DECIDED: f64 = 1e-10;
 /// Largest number of conditions that are taken up at a time.
 const BATCH: usize = 64;
+/// Violations of smoothness conditions that are round-off, in units of the program's size.
+const SMOOTH: f64 = 1e-15;
 const MAX_STEPS: usize = 100;
 /// Steps without progress after which conditions count as impossible.
 const PATIENCE: usize = 6;
@@ -94,6 +97,24 @@ impl Program {
     pub(crate) fn smoothness(&self) -> (usize, f64) {
         let x = self.unknowns();
         (self.conditions.len(), largest(self.conditions.iter().map(|row| row.excess(&x))))
+    }
+
+    /// Moves the unknowns as little as possible to where the smoothness conditions hold to round-off, if
+    /// they do not yet: over very flat tetrahedra refinement of the whole system stops before.
+    pub(crate) fn polish(&mut self) {
+        if self.smoothness().1 <= SMOOTH {
+            return;
+        }
+        let x = self.unknowns();
+        let n = x.len();
+        let identity = CscMatrix::new(n, n, (0..=n).collect(), (0..n).collect(), vec![1.0; n]);
+        let Some(mut kkt) = Kkt::new(identity, self.conditions.clone()) else { return };
+        let mut moved = x.clone();
+        kkt.refine(&mut moved, &x, MAX_STEPS);
+        self.solution
+            .iter_mut()
+            .zip(moved.iter().zip(&self.scale))
+            .for_each(|(z, (x, s))| *z = x / s);
     }
 
     /// Adds conditions `row >= right side`, which [`Self::satisfy`] will meet.

@@ -44,6 +44,8 @@ pub(crate) fn quintic(
         if surface.count_bad_rays(RAYS)[0] > 0 {
             add_signs(&mut program, &dofs, &mut surface, settings, &mut done);
         }
+        program.polish();
+        surface.weights = dofs.weights(&program.unknowns());
         (done.conditions, done.residual) = program.smoothness();
     }
     (surface.weights.iter().map(|w| w * unit).collect(), done)

@@ -15,7 +15,7 @@ use crate::output_files::extension;
 #[group(skip)]
 pub(crate) struct RationalOptions {
     /// Triangles, with or without normals (OBJ); for the schemes of solids an OFF or OBJ file with
-    /// planar faces, or a name such as `cube`, `icosahedron`, `frame`
+    /// planar faces, or a name such as `cube`, `icosahedron`, `frame`; or a file that `--weights` wrote
     #[arg(value_name = "MESH.obj")]
     pub(crate) mesh: PathBuf,
 
@@ -71,6 +71,14 @@ impl RationalOptions {
             SchemeName::C1Cubic => Scheme::C1Cubic,
             SchemeName::C2Quintic => Scheme::C2Quintic,
         };
+        match self.rational_option(compared) {
+            Some(name) => anyhow::bail!("{name} is not for solids; use --scheme rational"),
+            None => Ok(Some(scheme)),
+        }
+    }
+
+    /// An option that only the rational scheme has, if one is given.
+    fn rational_option(&self, compared: bool) -> Option<&'static str> {
         let given = [
             ("--normals", self.normals.is_some()),
             ("--reference", compared),
@@ -78,9 +86,27 @@ impl RationalOptions {
             ("--rule", self.rule != RuleName::Clamped),
             ("--repair", self.repair != RepairName::All),
         ];
-        match given.into_iter().find(|(_, given)| *given) {
-            Some((name, _)) => anyhow::bail!("{name} is not for solids; use --scheme rational"),
-            None => Ok(Some(scheme)),
+        given.into_iter().find(|(_, given)| *given).map(|(name, _)| name)
+    }
+
+    /// Whether the file holds a surface that is made already.
+    pub(crate) fn is_saved(&self) -> bool {
+        extension(&self.mesh) == "json"
+    }
+
+    /// Refuses everything that would make another surface of a file with tetrahedra and weights.
+    pub(crate) fn refuse_choices(&self, compared: bool, solid: bool) -> anyhow::Result<()> {
+        let given = [
+            ("--scheme", self.scheme != SchemeName::Rational),
+            ("--tension", self.tension != Tension::Uniform(0.0)),
+            ("--cut and --weights", solid),
+        ];
+        let other = given.into_iter().find(|(_, given)| *given).map(|(name, _)| name);
+        match self.rational_option(compared).or(other) {
+            Some(name) => {
+                anyhow::bail!("{name}: the surface in {} is made already", self.mesh.display())
+            }
+            None => Ok(()),
         }
     }
 

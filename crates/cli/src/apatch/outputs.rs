@@ -1,6 +1,5 @@
 //! The files of a surface.
 
-use anyhow::bail;
 use smoothpatch::apatch::rational::RationalSurface;
 use smoothpatch::apatch::{Element, Tessellation};
 use smoothpatch::apatch_surface::{RationalFigures, flat_gap, grid, triangles};
@@ -8,18 +7,6 @@ use smoothpatch::io::{Encoding, write_grid};
 
 use crate::formats;
 use crate::output_files::{Approximation, Format, OutputFiles, Written, write_file};
-
-const NO_POLYNOMIALS: &str = "files of this kind hold polynomial patches, which A-patches are not; use \
-                              .vtu, .obj, .ply, .stl or .glb";
-
-/// Refuses formats that cannot hold the surface, before it is made.
-pub(crate) fn check_formats(files: &OutputFiles) -> anyhow::Result<()> {
-    let exact = |format: &Format| matches!(format, Format::Step | Format::Msh);
-    match files.surfaces.iter().find(|(format, _)| exact(format)) {
-        Some((_, path)) => bail!("-o {}: {NO_POLYNOMIALS}", path.display()),
-        None => Ok(()),
-    }
-}
 
 /// What was written.
 pub(crate) struct Outputs {
@@ -53,7 +40,8 @@ impl Outputs {
                 Format::Triangles(format) => {
                     formats::triangles(path, *format, &triangles(&mesh), gap)?
                 }
-                Format::Step | Format::Msh => bail!("{}: {NO_POLYNOMIALS}", path.display()),
+                // refused with the names of the files
+                Format::Step | Format::Msh => continue,
             });
         }
         let flipped = mesh.flipped().map(|triangle| mesh.elements[triangle]).collect();

@@ -1,5 +1,9 @@
 //! `smoothpatch apatch` with `--scheme c1-cubic` or `c2-quintic`: solids with planar faces.
 
+mod summary;
+
+use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -7,20 +11,20 @@ use anyhow::{anyhow, bail};
 use clap::Args;
 use serde::Serialize;
 use smoothpatch::apatch::polyhedral::{
-    Finding, HullSettings, Joints, Planarity, PolyhedralSurface, Report, Sampled, Scheme, Settings,
-    ShapeControl,
+    HullSettings, Joints, Planarity, PolyhedralSurface, Polyhedron, Report, Sampled, Scheme,
+    Settings, ShapeControl,
 };
 use smoothpatch::io::{
     CreasedTessellation, Encoding, write_glb, write_grid, write_obj_creased, write_ply, write_stl,
 };
-use smoothpatch::solid_surface::{curvature_grid, mesh_of, solid, write_weights};
+use smoothpatch::solid_surface::{curvature_grid, mesh_of, read_weights, solid, write_weights};
 
 use super::tension::Tension;
 use crate::exit::{Outcome, complain};
 use crate::output_files::{Format, OutputFiles, TriangleFormat, Written, extension, write_file};
 use crate::progress::WorkLine;
 use crate::stdout::print;
-use crate::table::{Table, bytes, degrees, length};
+use summary::{summary, warnings};
 
 /// What only solids have.
 #[derive(Args)]
@@ -72,14 +76,6 @@ impl Order<'_> {
 
 pub(crate) fn run(order: &Order<'_>, files: &OutputFiles) -> anyhow::Result<Outcome> {
     let settings = order.settings()?;
-    for (format, path) in &files.surfaces {
-        if matches!(format, Format::Step | Format::Msh) {
-            bail!(
-                "-o {}: A-patches are written as flat triangles: .vtu, .obj, .ply, .stl or .glb",
-                path.display()
-            );
-        }
-    }
     if let Some(path) = &order.options.weights {
         if extension(path) != "json" {
             bail!("--weights {}: the name must end with .json", path.display());
@@ -94,44 +90,79 @@ pub(crate) fn run(order: &Order<'_>, files: &OutputFiles) -> anyhow::Result<Outc
         .map_err(|error| anyhow!("{}: {error}", order.solid.display()))?;
     drop(line);
     let built = start.elapsed().as_secs_f64();
+    let made = Made::new(&solid, &settings);
+    let show = Show { name: order.solid, density: order.density, quiet: order.quiet, built };
+    show.write(files, &surface, Some(made), order.options.weights.as_deref())
+}
+
+/// The surface in a file with tetrahedra and weights.
+pub(crate) fn load(
+    path: &Path,
+    density: usize,
+    quiet: bool,
+    files: &OutputFiles,
+) -> anyhow::Result<Outcome> {
     let start = Instant::now();
-    let joints = surface.joints();
-    let sampled = surface.sample(order.density, order.density.div_ceil(2));
-    let measured = start.elapsed().as_secs_f64();
-    let start = Instant::now();
-    let mut written = write(files, &surface, &sampled)?;
-    if let Some(path) = &order.options.weights {
-        written.push(write_file(path, |out| {
-            write_weights(out, &surface).map_err(std::io::Error::other)
-        })?);
-    }
-    if let Some(path) = &files.report {
-        let text = serde_json::to_string_pretty(&ReportFile {
-            program: concat!("smoothpatch ", env!("CARGO_PKG_VERSION")),
-            solid: order.solid,
-            settings: &settings,
-            faces: solid.facets().len(),
-            edges: solid.edge_count(),
-            euler_characteristic: solid.euler_characteristic(),
-            volume: solid.signed_volume(),
-            surface_volume: sampled.mesh.signed_volume(),
-            construction: surface.report(),
-            joints,
-            triangles: sampled.mesh.triangles.len(),
-            flipped_triangles: sampled.mesh.flipped_facets(),
-            points_not_on_surface: sampled.mesh.missing,
-            files: &written,
-        })? + "\n";
-        written.push(write_file(path, |out| out.write_all(text.as_bytes()))?);
-    }
-    if !order.quiet {
-        let seconds = [built, measured, start.elapsed().as_secs_f64()];
-        print(&summary(order, &surface, joints, &sampled, &written, seconds))?;
-        for warning in warnings(&surface, &sampled) {
-            complain(&format!("warning: {warning}"));
+    let wrong = |error: &dyn std::fmt::Display| anyhow!("{}: {error}", path.display());
+    let file = File::open(path).map_err(|error| wrong(&format!("cannot read: {error}")))?;
+    let surface = read_weights(&mut BufReader::new(file)).map_err(|error| wrong(&error))?;
+    let built = start.elapsed().as_secs_f64();
+    Show { name: path, density, quiet, built }.write(files, &surface, None, None)
+}
+
+/// How a surface is shown.
+struct Show<'a> {
+    name: &'a Path,
+    density: usize,
+    quiet: bool,
+    /// Seconds.
+    built: f64,
+}
+
+impl Show<'_> {
+    /// Measures the surface and writes all files.
+    fn write(
+        &self,
+        files: &OutputFiles,
+        surface: &PolyhedralSurface,
+        made: Option<Made<'_>>,
+        weights: Option<&Path>,
+    ) -> anyhow::Result<Outcome> {
+        let start = Instant::now();
+        let joints = surface.joints();
+        let sampled = surface.sample(self.density, self.density.div_ceil(2));
+        let measured = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let mut written = write(files, surface, &sampled)?;
+        if let Some(path) = weights {
+            written.push(write_file(path, |out| {
+                write_weights(out, surface).map_err(std::io::Error::other)
+            })?);
         }
+        if let Some(path) = &files.report {
+            let text = serde_json::to_string_pretty(&ReportFile {
+                program: concat!("smoothpatch ", env!("CARGO_PKG_VERSION")),
+                input: self.name,
+                made,
+                surface_volume: sampled.mesh.signed_volume(),
+                construction: surface.report(),
+                joints,
+                triangles: sampled.mesh.triangles.len(),
+                flipped_triangles: sampled.mesh.flipped_facets(),
+                points_not_on_surface: sampled.mesh.missing,
+                files: &written,
+            })? + "\n";
+            written.push(write_file(path, |out| out.write_all(text.as_bytes()))?);
+        }
+        if !self.quiet {
+            let seconds = [self.built, measured, start.elapsed().as_secs_f64()];
+            print(&summary(self.name, surface, joints, &sampled, &written, seconds))?;
+            for warning in warnings(surface, &sampled) {
+                complain(&format!("warning: {warning}"));
+            }
+        }
+        Ok(Outcome::Success)
     }
-    Ok(Outcome::Success)
 }
 
 fn write(
@@ -171,16 +202,36 @@ pub(crate) fn write_triangles(
     })
 }
 
-/// What was asked for, what was done and measured, and what was written.
+/// The solid under a surface, and what was asked for.
 #[derive(Serialize)]
-struct ReportFile<'a> {
-    program: &'static str,
-    solid: &'a Path,
+struct Made<'a> {
     settings: &'a Settings,
     faces: usize,
     edges: usize,
     euler_characteristic: isize,
     volume: f64,
+}
+
+impl<'a> Made<'a> {
+    fn new(solid: &Polyhedron, settings: &'a Settings) -> Self {
+        Self {
+            settings,
+            faces: solid.facets().len(),
+            edges: solid.edge_count(),
+            euler_characteristic: solid.euler_characteristic(),
+            volume: solid.signed_volume(),
+        }
+    }
+}
+
+/// What was done and measured, and what was written.
+#[derive(Serialize)]
+struct ReportFile<'a> {
+    program: &'static str,
+    #[serde(rename = "solid")]
+    input: &'a Path,
+    #[serde(flatten)]
+    made: Option<Made<'a>>,
     surface_volume: f64,
     construction: &'a Report,
     joints: Joints,
@@ -188,81 +239,4 @@ struct ReportFile<'a> {
     flipped_triangles: usize,
     points_not_on_surface: usize,
     files: &'a [Written],
-}
-
-/// `seconds`: building, measuring, writing.
-fn summary(
-    order: &Order<'_>,
-    surface: &PolyhedralSurface,
-    joints: Joints,
-    sampled: &Sampled,
-    written: &[Written],
-    seconds: [f64; 3],
-) -> String {
-    let report = surface.report();
-    let mut table = Table::default();
-    let [convex, concave, straight] = report.edges;
-    table.row("triangles of the hull", surface.hull().triangles.len());
-    table.row("edges by kind", format!("{convex} convex, {concave} concave, {straight} straight"));
-    let (faces, edges) = (report.face_tetrahedra, report.edge_tetrahedra);
-    table.row("tetrahedra", format!("{faces} over triangles, {edges} over edges"));
-    table.row("hulls tried", report.hulls);
-    table.row("findings", report.findings.len());
-    let [bad, rays] = report.bad_rays;
-    table.row("bad rays", format!("{bad} of {rays}"));
-    let [value, gradient] = [joints.value_jump, joints.gradient_jump].map(length);
-    table.row("C1 residual", format!("{value} in value, {gradient} in gradient"));
-    if order.scheme == Scheme::C2Quintic {
-        table.row("C2 residual", length(joints.hessian_jump));
-    }
-    table.row("angle at joints", degrees(joints.normal_angle.to_degrees()));
-    table.row("volume", format!("{:.6e}", sampled.mesh.signed_volume()));
-    table.gap();
-    for (stage, seconds) in ["build", "measure", "write"].into_iter().zip(seconds) {
-        table.row(stage, format!("{seconds:.3} s"));
-    }
-    table.gap();
-    for file in written {
-        table.row("wrote", format!("{} ({})", file.file.display(), bytes(file.bytes)));
-    }
-    table.row("", format!("{} flat triangles", sampled.mesh.triangles.len()));
-    let kind = match order.scheme {
-        Scheme::C1Cubic => "C1 cubic A-patches",
-        Scheme::C2Quintic => "C2 quintic A-patches",
-    };
-    format!("{}, {kind}\n{table}", order.solid.display())
-}
-
-/// One sentence for each kind of fault; none for a good result.
-fn warnings(surface: &PolyhedralSurface, sampled: &Sampled) -> Vec<String> {
-    let report = surface.report();
-    let mut warnings = Vec::new();
-    if let Some(first) = report.findings.first() {
-        warnings.push(format!(
-            "the tetrahedra do not fit together in {} places; first: {}",
-            report.findings.len(),
-            describe(first)
-        ));
-    }
-    if report.bad_rays[0] > 0 {
-        let [bad, all] = report.bad_rays;
-        warnings.push(format!("{bad} of {all} rays do not meet the surface exactly once"));
-    }
-    if report.fairness.is_some_and(|f| !f.accurate) {
-        warnings
-            .push("some weights have the wrong sign; the surface is smooth, see bad rays".into());
-    }
-    let flipped = sampled.mesh.flipped_facets();
-    if flipped > 0 {
-        warnings.push(format!("{flipped} triangles look the wrong way; try another --density"));
-    }
-    warnings
-}
-
-fn describe(finding: &Finding) -> String {
-    match finding {
-        Finding::Overlap { at: [a, b], .. } => format!("overlap of those at {a:?} and {b:?}"),
-        Finding::Wedge { at: [a, b], .. } => format!("order of those at {a:?} and {b:?}"),
-        other => format!("{other:?}"),
-    }
 }

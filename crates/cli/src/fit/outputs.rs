@@ -15,7 +15,7 @@ use smoothpatch::measure::FaceDeviation;
 use super::FitArguments;
 use crate::format_options::FormatOptions;
 use crate::formats;
-use crate::output_files::{Format, OutputFiles, TriangleFormat, Written, write_file};
+use crate::output_files::{Format, Holds, OutputFiles, TriangleFormat, Written, write_file};
 
 type Nets = FaceMap<SepticTriangle>;
 
@@ -31,8 +31,9 @@ pub(crate) struct Outputs<'a> {
 impl<'a> Outputs<'a> {
     /// What the options ask for; only names are looked at.
     pub(crate) fn new(arguments: &'a FitArguments) -> anyhow::Result<Self> {
-        let files = OutputFiles::new(&arguments.outputs, arguments.report.as_deref())?
-            .with_before_join(arguments.before_join.as_deref())?;
+        let files =
+            OutputFiles::new(Holds::Patches, &arguments.outputs, arguments.report.as_deref())?
+                .with_before_join(arguments.before_join.as_deref())?;
         let (cells, divisions) = (arguments.cells.into(), arguments.divisions);
         let formats = &arguments.formats;
         Ok(Self { files, formats, cells, quiet: arguments.quiet, divisions })

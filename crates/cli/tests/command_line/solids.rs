@@ -35,6 +35,36 @@ fn a_frame_becomes_a_smooth_ring() {
 }
 
 #[test]
+fn a_file_of_tetrahedra_is_the_same_surface() {
+    let place = place();
+    for (solid, scheme) in [("u_prism.off", "c1-cubic"), ("cube", "c2-quintic")] {
+        place.succeed(&format!(
+            "apatch {solid} --scheme {scheme} --density 4 -o a.vtu --weights w.json --report a.json"
+        ));
+        let run = place.succeed("apatch w.json --density 4 -o b.vtu --report b.json");
+        has_rows(&run, &["bad rays", "volume"]);
+        assert!(place.read("a.vtu") == place.read("b.vtu"), "{solid}: the same file");
+        let [made, loaded] = ["a.json", "b.json"].map(|name| place.json(name));
+        assert_eq!(made["joints"], loaded["joints"], "{solid}");
+        assert_eq!(made["construction"]["bad_rays"], loaded["construction"]["bad_rays"]);
+    }
+    place.write("cut.json", &place.read("w.json")[..2000]);
+    place.write("other.json", r#"{"format": "w", "version": 3}"#);
+    for (options, message) in [
+        ("apatch cut.json -o c.obj", "cut.json: EOF while parsing"),
+        ("apatch other.json -o c.obj", "other.json: missing field `degree`"),
+        ("apatch none.json -o c.obj", "none.json: cannot read"),
+        ("apatch w.json --scheme c1-cubic -o c.obj", "--scheme: the surface in w.json is made"),
+        ("apatch w.json --cut 0.5 -o c.obj", "--cut and --weights: the surface in w.json"),
+        ("apatch w.json --tension 1 -o c.obj", "--tension: the surface in w.json"),
+        ("apatch w.json -o c.obj --report w.json", "w.json is read; it would be overwritten"),
+    ] {
+        let arguments: Vec<&str> = options.split_whitespace().collect();
+        refuses(&place, &arguments, &[message]);
+    }
+}
+
+#[test]
 fn a_named_solid_with_second_order_smoothness() {
     let place = Workplace::new();
     let run = place.succeed("apatch cube --scheme c2-quintic --density 4 -o c.obj --report c.json");
@@ -69,6 +99,10 @@ fn what_is_refused() {
         (
             "apatch frame.off --scheme c1-cubic -o a.step",
             "files of this kind hold polynomial patches",
+        ),
+        (
+            "apatch frame.off --scheme c1-cubic -o a.xyz",
+            "-o a.xyz: the name must end with .vtu, .obj, .ply, .stl or .glb",
         ),
         ("apatch cube -o a.obj", "cube is a solid; add --scheme c1-cubic or c2-quintic"),
         ("apatch frame.off -o a.obj", "frame.off is a solid; add --scheme"),
