@@ -108,7 +108,7 @@ fn fit_simplified(
 ///
 /// # Errors
 ///
-/// [`FitError`]: a singular point, an edge without a curve, an open mesh.
+/// [`FitError`]: a singular point, an edge without a curve.
 pub fn fit_base_mesh(
     field: &dyn ImplicitSurface,
     mesh: TriMesh,
@@ -123,7 +123,7 @@ pub fn fit_base_mesh(
 ///
 /// # Errors
 ///
-/// [`FitError`]: vertices without data, an edge without a curve, an open mesh.
+/// [`FitError`]: vertices without data, an edge without a curve.
 pub fn fit_source(
     source: &dyn FitSource,
     mesh: TriMesh,
