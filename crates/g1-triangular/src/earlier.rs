@@ -11,7 +11,9 @@ use crate::fill::PositionalPatch;
 /// Everything here is a pure function of its surroundings, so that using an earlier result gives
 /// the same bits as finding it again. The default is to know nothing.
 pub trait Earlier: Sync {
-    /// The positional patch of a face: depends on its curves.
+    /// The positional patch of a face: depends on its curves. Around vertices all of whose edges and
+    /// faces are known by [`rows`](Self::rows) and [`patch`](Self::patch) it is not read, and any net
+    /// will do.
     fn positional(&self, face: FaceId) -> Option<PositionalPatch> {
         let _ = face;
         None

@@ -6,6 +6,8 @@ mod fitted;
 mod spare;
 mod wishes;
 
+use std::sync::Arc;
+
 use basemesh::{
     FaceMap, FieldTarget, ImproveSettings, RemeshSettings, Simplified, SimplifyError,
     SimplifySettings, SurfaceTarget, TriMesh, polygonize_to_faces, simplify,
@@ -223,7 +225,8 @@ fn adapt(
     if met {
         fitted = spare(fitted, tolerance, &mut job)?;
     }
-    let mut surface = fitted.surface;
+    drop(job.memory);
+    let mut surface = Arc::unwrap_or_clone(fitted.surface);
     if needs_repair(&surface, source) {
         surface = fit_mesh(surface.mesh, source, settings, 0, clock)?;
     }

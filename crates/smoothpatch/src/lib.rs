@@ -7,6 +7,7 @@ mod again;
 mod agreement;
 pub mod apatch_surface;
 mod assembly;
+mod curves;
 mod error;
 mod folds;
 mod memory;

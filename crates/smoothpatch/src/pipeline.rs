@@ -1,27 +1,22 @@
 //! The story: from an implicit function to a smooth surface, one stage after the other.
 
-use basemesh::glam::DVec3;
 use basemesh::{
-    EdgeId, EdgeMap, FaceMap, FieldTarget, Foot, Simplified, SurfaceTarget, TriMesh, VertexMap,
-    polygonize_to_faces, simplify,
+    EdgeMap, FaceMap, FieldTarget, Simplified, TriMesh, VertexMap, polygonize_to_faces, simplify,
 };
 use bezier_core::SurfaceJet;
 use g1_triangular::{
     CurveNetwork, Earlier, Nothing, PositionalPatches, SmoothPatches, fill_reusing, join_reusing,
 };
-use hermite_sqp::{CurveFoot, CurveRefinement, CurveSample, EdgeOutcome, EdgeProblem, EdgeStatus};
+use hermite_sqp::EdgeOutcome;
 use implicit::{Aabb, ImplicitSurface};
 
 use crate::adapt::equalise;
-use crate::again::Unchanged;
-use crate::agreement::{agreeing, contradicted};
+use crate::again::unchanged;
+use crate::curves::{fit_curves, reconcile_curves, refit_curves, vertex_jets};
 use crate::error::FitError;
 use crate::folds::find_folds;
-use crate::measure::{FaceDeviation, face_deviations};
-use crate::memory::{Keys, Memory, Recall};
 use crate::objectives::Objectives;
 use crate::progress::{Clock, Progress, Stage, StageTimes};
-use crate::reconcile::reconciled;
 use crate::repair::{self, edges_to_split, refine};
 use crate::settings::{SecondForms, Settings};
 use crate::source::{FieldSource, FitSource};
@@ -222,70 +217,19 @@ fn fit_mesh_once(
         let curves = clock.run(Stage::Curves, 0, || {
             refit_curves(&mesh, &jets, &fitted.curves, source, settings, &objectives)
         })?;
-        let unchanged = Unchanged::new(
-            &mesh,
-            [&fitted.curves, &curves],
-            [&before, &objectives.patches],
-            &fitted.positional,
-            &fitted.patches,
-        );
-        fitted = fit_patches(&mesh, &jets, curves, source, &objectives, &unchanged, clock)?;
+        let known = unchanged(&mesh, &fitted, &curves, [&before, &objectives.patches]);
+        fitted = fit_patches(&mesh, &jets, curves, source, &objectives, &known, clock)?;
     }
     Ok(surface(mesh, jets, fitted, objectives))
 }
 
-/// Curves, then patches, then smooth patches, found anew only where the mesh has changed since the
-/// fit that is remembered; `memory` then remembers this one. No repair, no fold guard: what is wrong
-/// shows in the deviation, and the mesh changes there.
-pub(crate) fn fit_again(
-    mesh: TriMesh,
-    source: &dyn FitSource,
-    settings: &Settings,
-    memory: &mut Memory,
-    clock: &mut Clock<'_>,
-) -> Result<(G1Surface, FaceMap<FaceDeviation>), FitError> {
-    let topology = mesh.topology();
-    let [vertices, edges, faces] =
-        [topology.vertex_count(), topology.edge_count(), topology.face_count()];
-    let keys = Keys::new(&mesh);
-    if settings.second_forms != SecondForms::Given {
-        // data at a vertex then depend on its neighbours, which the keys do not know
-        *memory = Memory::default();
-    }
-    let recall = Recall { memory, keys: &keys };
-    let objectives = Objectives::uniform(topology, settings);
-    let plan = &objectives.patches;
-
-    let jets = clock.run(Stage::Vertices, vertices, || vertex_jets(&mesh, source, settings))?;
-    let curves = clock.run(Stage::Curves, edges, || {
-        EdgeMap::try_from_fn(edges, |edge| {
-            let fit = || fit_curve(&mesh, &jets, source, settings, edge, settings.curve_refinement);
-            recall.curve(edge).map_or_else(fit, Ok)
-        })
-    })?;
-    let network = CurveNetwork::new(curves.map(|_, outcome| outcome.curve));
-    let positional =
-        clock.run(Stage::Fill, faces, || fill_reusing(&mesh, &network, source, plan, &recall));
-    let patches = clock.run(Stage::Join, faces, || {
-        let nets = positional.nets.clone();
-        join_reusing(&mesh, &jets, &network, nets, source, plan, &recall)
-    })?;
-    let deviations = clock.run(Stage::Measure, faces, || {
-        face_deviations(&patches.nets, source, |face| recall.deviation(face))
-    });
-    *memory = Memory::of(&keys, &curves, &positional, &patches, &deviations);
-    let fitted = Fitted { curves, network, positional, patches };
-    Ok((surface(mesh, jets, fitted, objectives), deviations))
-}
-
-fn surface(
+pub(crate) fn surface(
     mesh: TriMesh,
     jets: VertexMap<SurfaceJet>,
     fitted: Fitted,
     objectives: Objectives,
 ) -> G1Surface {
-    let Fitted { curves, network, positional, patches } = fitted;
-    let failed_feet = positional.failed_feet;
+    let Fitted { curves, network, failed_feet, patches } = fitted;
     G1Surface {
         mesh,
         jets,
@@ -301,16 +245,17 @@ fn surface(
 }
 
 /// A curve network and its smooth patches.
-struct Fitted {
-    curves: EdgeMap<EdgeOutcome>,
-    network: CurveNetwork,
-    positional: PositionalPatches,
-    patches: SmoothPatches,
+pub(crate) struct Fitted {
+    pub(crate) curves: EdgeMap<EdgeOutcome>,
+    pub(crate) network: CurveNetwork,
+    /// Samples per face that could not be projected.
+    pub(crate) failed_feet: FaceMap<usize>,
+    pub(crate) patches: SmoothPatches,
 }
 
 /// Patches, then smooth patches, over given curves.
 #[allow(clippy::too_many_arguments, reason = "everything that a patch depends on")]
-fn fit_patches(
+pub(crate) fn fit_patches(
     mesh: &TriMesh,
     jets: &VertexMap<SurfaceJet>,
     curves: EdgeMap<EdgeOutcome>,
@@ -322,16 +267,16 @@ fn fit_patches(
     let network = CurveNetwork::new(curves.map(|_, outcome| outcome.curve));
     let faces = mesh.topology().face_count();
     let plan = &objectives.patches;
-    let positional =
+    let PositionalPatches { nets, failed_feet } =
         clock.run(Stage::Fill, faces, || fill_reusing(mesh, &network, source, plan, earlier));
     let patches = clock.run(Stage::Join, faces, || {
-        join_reusing(mesh, jets, &network, positional.nets.clone(), source, plan, earlier)
+        join_reusing(mesh, jets, &network, nets, source, plan, earlier)
     })?;
-    Ok(Fitted { curves, network, positional, patches })
+    Ok(Fitted { curves, network, failed_feet, patches })
 }
 
 /// Takes the objectives of folded patches back; `false` if no patch folds that could be helped.
-fn retreat(
+pub(crate) fn retreat(
     mesh: &TriMesh,
     jets: &VertexMap<SurfaceJet>,
     fitted: &Fitted,
@@ -341,142 +286,4 @@ fn retreat(
     let folds = find_folds(mesh, jets, &fitted.patches.nets, source);
     // all of them, whichever succeeds first
     folds.into_iter().filter(|&face| objectives.retreat(mesh.topology(), face)).count() > 0
-}
-
-/// Position, normal and second fundamental form at every vertex.
-fn vertex_jets(
-    mesh: &TriMesh,
-    source: &dyn FitSource,
-    settings: &Settings,
-) -> Result<VertexMap<SurfaceJet>, FitError> {
-    let jets = VertexMap::try_from_fn(mesh.topology().vertex_count(), |vertex| {
-        let at = mesh.position(vertex);
-        source.surface_jet(vertex, at).ok_or(FitError::Singular { vertex: vertex.index(), at })
-    })?;
-    Ok(match settings.second_forms {
-        SecondForms::Given => jets,
-        SecondForms::AgreeAlongEdges => {
-            let emphasis = EdgeMap::from_vec(vec![1.0; mesh.topology().edge_count()]);
-            agreeing(mesh, &reconciled(mesh, &jets), &emphasis)
-        }
-    })
-}
-
-/// How often, and how much more edges count whose curves contradict the forms at their ends.
-const EMPHASES: usize = 3;
-const EMPHASIS: f64 = 30.0;
-
-/// Forms may change further where curves cannot meet them; the curves around are then fitted again.
-fn reconcile_curves(
-    mesh: &TriMesh,
-    mut jets: VertexMap<SurfaceJet>,
-    mut curves: EdgeMap<EdgeOutcome>,
-    source: &dyn FitSource,
-    settings: &Settings,
-) -> Result<(VertexMap<SurfaceJet>, EdgeMap<EdgeOutcome>), FitError> {
-    if settings.second_forms == SecondForms::Given {
-        return Ok((jets, curves));
-    }
-    let topology = mesh.topology();
-    let mut emphasis = EdgeMap::from_vec(vec![1.0; topology.edge_count()]);
-    for _ in 0..EMPHASES {
-        let missed = contradicted(mesh, &jets, &curves);
-        if missed.is_empty() {
-            break;
-        }
-        missed.into_iter().for_each(|edge| emphasis[edge] *= EMPHASIS);
-        let changed = agreeing(mesh, &jets, &emphasis);
-        curves = EdgeMap::try_from_fn(curves.len(), |edge| {
-            let same = topology.edge_vertices(edge).iter().all(|&v| changed[v] == jets[v]);
-            if same {
-                return Ok(curves[edge]);
-            }
-            fit_curve(mesh, &changed, source, settings, edge, settings.curve_refinement)
-        })?;
-        jets = changed;
-    }
-    Ok((jets, curves))
-}
-
-/// One curve per edge, from its lower to its higher vertex.
-fn fit_curves(
-    mesh: &TriMesh,
-    jets: &VertexMap<SurfaceJet>,
-    target: &dyn FitSource,
-    settings: &Settings,
-) -> Result<EdgeMap<EdgeOutcome>, FitError> {
-    EdgeMap::try_from_fn(mesh.topology().edge_count(), |edge| {
-        fit_curve(mesh, jets, target, settings, edge, settings.curve_refinement)
-    })
-}
-
-/// The curves with those made anew whose objectives are not the general ones any more.
-fn refit_curves(
-    mesh: &TriMesh,
-    jets: &VertexMap<SurfaceJet>,
-    curves: &EdgeMap<EdgeOutcome>,
-    target: &dyn FitSource,
-    settings: &Settings,
-    objectives: &Objectives,
-) -> Result<EdgeMap<EdgeOutcome>, FitError> {
-    EdgeMap::try_from_fn(curves.len(), |edge| {
-        let refinement = objectives.curves[edge];
-        if refinement == settings.curve_refinement {
-            Ok(curves[edge])
-        } else {
-            fit_curve(mesh, jets, target, settings, edge, refinement)
-        }
-    })
-}
-
-fn fit_curve(
-    mesh: &TriMesh,
-    jets: &VertexMap<SurfaceJet>,
-    target: &dyn FitSource,
-    settings: &Settings,
-    edge: EdgeId,
-    refinement: CurveRefinement,
-) -> Result<EdgeOutcome, FitError> {
-    if let Some(curve) = target.given_curve(edge) {
-        let status = EdgeStatus::Converged { iterations: 0, published_iterations: 0 };
-        return Ok(EdgeOutcome { curve, status });
-    }
-    let [a, b] = mesh.topology().edge_vertices(edge);
-    let samples = curve_samples(&jets[a], &jets[b], target, settings.curve_sections);
-    let problem = EdgeProblem::new(&jets[a], &jets[b], &samples).map_err(|reason| {
-        FitError::Edge { edge: edge.index(), a: a.index(), b: b.index(), reason }
-    })?;
-    let solved = hermite_sqp::solve(&problem, &settings.curves);
-    let feet = |points: &[DVec3], feet: &mut [CurveFoot]| {
-        let mut found: [Option<Foot>; hermite_sqp::MOST_FEET] = [None; hermite_sqp::MOST_FEET];
-        target.linear_feet(points, &mut found[..points.len()]);
-        feet.iter_mut().zip(&found).all(|(slot, foot)| {
-            foot.is_some_and(|Foot { point, normal }| {
-                *slot = CurveFoot { point, normal };
-                true
-            })
-        })
-    };
-    let refined = hermite_sqp::refine(&problem, &solved.curve, refinement, &settings.curves, &feet);
-    Ok(EdgeOutcome { curve: refined.curve, ..solved })
-}
-
-/// Points of the surface near equidistant points of the chord; those that have no foot are left
-/// out.
-fn curve_samples(
-    start: &SurfaceJet,
-    end: &SurfaceJet,
-    target: &dyn SurfaceTarget,
-    sections: usize,
-) -> Vec<CurveSample> {
-    let parameters: Vec<f64> = (1..sections).map(|j| j as f64 / sections as f64).collect();
-    let chord: Vec<_> =
-        parameters.iter().map(|&t| start.point * (1.0 - t) + end.point * t).collect();
-    let mut feet = vec![None; chord.len()];
-    target.feet(&chord, &mut feet);
-    parameters
-        .into_iter()
-        .zip(feet)
-        .filter_map(|(t, foot)| Some(CurveSample { t, point: foot?.point }))
-        .collect()
 }

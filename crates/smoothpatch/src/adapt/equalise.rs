@@ -1,13 +1,14 @@
 //! The deviation is spread evenly over a given number of faces.
 
+use std::sync::Arc;
+
 use basemesh::{FaceMap, RemeshSettings, TriMesh, remesh};
 use implicit::ProjectionSettings;
 
 use super::wishes::{aim_for, even_wishes};
 use crate::error::FitError;
 use crate::measure::FaceDeviation;
-use crate::memory::Memory;
-use crate::pipeline::fit_again;
+use crate::memory::{Memory, fit_again};
 use crate::progress::{Clock, Stage};
 use crate::settings::Settings;
 use crate::source::FitSource;
@@ -28,7 +29,7 @@ pub(crate) fn equalise(
     let faces = mesh.topology().face_count();
     let mut memory = Memory::default();
     let (mut surface, mut deviations) = fit_again(mesh, source, settings, &mut memory, clock)?;
-    let mut best: Option<(f64, G1Surface)> = None;
+    let mut best: Option<(f64, Arc<G1Surface>)> = None;
     for _ in 0..settings.base_mesh.equalising_rounds {
         let errors = errors(&surface, &deviations, settings.projection);
         let wishes = even_wishes(&surface.mesh, &errors, aim_for(&errors, faces as f64));
@@ -44,10 +45,12 @@ pub(crate) fn equalise(
     }
     keep_better(&mut best, badness(&surface, &deviations), surface);
     let (_, surface) = best.expect("invariant: at least one fit was kept");
-    Ok(surface)
+    // nobody else holds the surface then
+    drop(memory);
+    Ok(Arc::unwrap_or_clone(surface))
 }
 
-fn keep_better(best: &mut Option<(f64, G1Surface)>, badness: f64, surface: G1Surface) {
+fn keep_better(best: &mut Option<(f64, Arc<G1Surface>)>, badness: f64, surface: Arc<G1Surface>) {
     if best.as_ref().is_none_or(|(least, _)| badness < *least) {
         *best = Some((badness, surface));
     }

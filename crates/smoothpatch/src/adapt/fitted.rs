@@ -1,13 +1,14 @@
 //! A fit with what was measured.
 
+use std::sync::Arc;
+
 use basemesh::{
     FaceMap, RemeshSettings, SimplifyError, SimplifySettings, TriMesh, VertexMap, remesh, simplify,
 };
 
 use crate::error::FitError;
 use crate::measure::{FaceDeviation, settle};
-use crate::memory::Memory;
-use crate::pipeline::fit_again;
+use crate::memory::{Memory, fit_again};
 use crate::progress::{Clock, Stage};
 use crate::settings::Settings;
 use crate::source::FitSource;
@@ -15,7 +16,7 @@ use crate::surface::G1Surface;
 
 /// A surface and the deviation of each of its patches.
 pub(super) struct Fitted {
-    pub(super) surface: G1Surface,
+    pub(super) surface: Arc<G1Surface>,
     pub(super) deviations: FaceMap<FaceDeviation>,
 }
 
