@@ -129,6 +129,19 @@ proptest! {
         }
     }
 
+    #[test]
+    fn halves_are_the_patches_over_them(patch in triangle::<36>()) {
+        let [first, second, third] = Corner::ALL.map(Barycentric::at);
+        let middle = Barycentric::new(0.0, 0.5);
+        for (half, corners) in
+            patch.halves().iter().zip([[middle, first, second], [middle, third, first]])
+        {
+            for (a, b) in half.net().iter().zip(patch.over(corners).net()) {
+                prop_assert!(a.distance(*b) <= ROUND_OFF);
+            }
+        }
+    }
+
     /// Symmetric, affine in each argument, and equal to the control points at the corners.
     #[test]
     fn blossom(
